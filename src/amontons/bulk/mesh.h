@@ -1,0 +1,80 @@
+#pragma once
+#include "amontons/base/ids.h"
+#include "amontons/bulk/options.h"
+#include "amontons/surface/surface.h"
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace amontons
+{
+enum class CellShape : unsigned char
+{
+  segment,
+  triangle,
+  quadrilateral,
+  tetrahedron,
+  hexahedron
+};
+
+/// Cells or facets of one kind of dimension, one after another: entity e has the nodes
+/// `nodes[offsets[e] .. offsets[e+1])` in the order of Gmsh and VTK.
+struct Connectivity
+{
+  std::vector<Index> offsets{0};
+  std::vector<Index> nodes;
+
+  [[nodiscard]] Index size() const { return static_cast<Index>(offsets.size()) - 1; }
+  [[nodiscard]] std::span<const Index> operator[](Index e) const
+  {
+    return {nodes.data() + offsets[e], static_cast<std::size_t>(offsets[e + 1] - offsets[e])};
+  }
+  void push_back(std::span<const Index> entity)
+  {
+    nodes.insert(nodes.end(), entity.begin(), entity.end());
+    offsets.push_back(static_cast<Index>(nodes.size()));
+  }
+};
+
+/// Shape of a cell or facet from its dimension and its number of nodes.
+CellShape cell_shape(int dim, std::size_t n_nodes);
+
+/// A physical group of the mesh file.
+struct Group
+{
+  int dim = 0;              ///< 0 points, 1 curves, 2 surfaces, 3 volumes
+  Connectivity entities;    ///< cells, facets, edges or points of the group
+  std::vector<Index> cells; ///< for dim == Mesh::dim: positions in Mesh::cells, in the order of `entities`
+};
+
+/// The mesh as read: one process, degree 1, right-handed cells. Only nodes of some cell or group are kept.
+struct Mesh
+{
+  int dim = 2;
+  std::vector<double> points;         ///< [n_nodes * dim], reference coordinates
+  std::vector<GlobalIndex> node_tags; ///< [n_nodes], numbers in the mesh file, for messages and outputs
+  Connectivity cells;                 ///< cells of dimension dim
+  std::vector<GlobalIndex> cell_tags; ///< [n_cells]
+  std::map<std::string, Group> groups;
+  std::string file;
+
+  [[nodiscard]] Index n_nodes() const { return static_cast<Index>(node_tags.size()); }
+};
+
+/// Reads a .msh (2.2 or 4.1, ASCII or binary) or meshes a .geo with the given parameters, then refines.
+/// @throws UserError: unreadable file, cells of a degree above 1 or of a shape not known, inverted or degenerate cells
+///         (clockwise 2D cells are turned, not refused), NaN coordinates, negative radius in axisymmetry.
+Mesh read_mesh(const MeshOptions &options);
+
+/// Facets of a physical group as a contact surface, oriented outwards from the cells they bound. node_ids are node
+/// indices of the mesh, face_ids positions in the group.
+///        A facet that bounds no cell keeps the orientation of the file (rigid surfaces meshed without volume).
+/// @throws UserError: no such group (with what was probably meant), wrong dimension, a facet between two cells.
+Surface extract_surface(const Mesh &mesh, const std::string &group, const SourceLocation &where);
+
+/// The group of that name, or a UserError that lists the groups of dimension `dim` and the likeliest.
+/// @param dim required dimension, or -1 for any.
+const Group &find_group(const Mesh &mesh, const std::string &name, int dim, const SourceLocation &where);
+} // namespace amontons

@@ -1,0 +1,48 @@
+#pragma once
+#include "amontons/contact/linearisation.h"
+#include "amontons/surface/shape.h"
+
+#include <span>
+
+namespace amontons
+{
+/// Finite sliding: everything of the current geometry.
+/// @param impactor current position, [dim]
+/// @param face current positions of the face's nodes, [n_face_nodes * dim], 2 nodes in the plane, 3 or 4 in 3D
+/// @param slip_origin where the node's slip over this increment started: a point of space at the increment's beginning
+///        tau (the impactor node's position then, or the point where it closed), [dim]
+/// @param face_at_start positions of the same face's nodes at tau, [n_face_nodes * dim]
+/// @param xi_guess start of the projection, from the pairing
+/// Slip: g_t = sum_a a_a (xi^a - alpha^a), alpha the projection of `slip_origin` on the (extended) face as it was at
+/// tau (THEORY.md section 3; the paper, section 2).
+ContactLinearisation linearise_finite(int dim, std::span<const double> impactor, std::span<const double> face,
+                                      std::span<const double> slip_origin, std::span<const double> face_at_start,
+                                      std::array<double, 2> xi_guess);
+
+/// Small strain: normal, tangents and xi of the reference geometry.
+/// @param reference_impactor, reference_face reference coordinates, laid out as above
+/// @param displacement of the impactor, then of the face's nodes, [(1 + n_face_nodes) * dim]
+/// @param slip_origin relative displacement u_1 - sum N_i u_i at the increment's beginning (or when the node closed),
+/// [dim]
+ContactLinearisation linearise_small(int dim, std::span<const double> reference_impactor,
+                                     std::span<const double> reference_face, std::span<const double> displacement,
+                                     std::span<const double> slip_origin, std::array<double, 2> xi);
+
+/// Analytic rigid target that translates with its point (Shape::point).
+/// Dofs: impactor, then the shape's point. `slip_origin` is a position at tau, `shape_point_at_start` the point's then.
+ContactLinearisation linearise_shape(int dim, bool axisymmetric, const Shape &shape, std::span<const double> impactor,
+                                     std::span<const double> shape_point, std::span<const double> slip_origin,
+                                     std::span<const double> shape_point_at_start);
+
+/// The small-strain counterpart: normal and closest point of the reference geometry.
+ContactLinearisation linearise_shape_small(int dim, bool axisymmetric, const Shape &shape,
+                                           std::span<const double> reference_impactor,
+                                           std::span<const double> displacement, std::span<const double> slip_origin);
+
+/// Where a node that was open at tau (gap_start > 0) and is found closed (gap_now <= 0) in a trial state takes its slip
+/// from: the point of its way, interpolated linearly in the gap, at which the gap vanished, carried back to the
+/// target's geometry at tau. Same arguments and frame as linearise_finite. @return slip_origin, [dim]
+Eigen::Vector3d closing_origin_finite(int dim, std::span<const double> impactor, std::span<const double> face,
+                                      std::span<const double> impactor_at_start, std::span<const double> face_at_start,
+                                      std::array<double, 2> xi_guess);
+} // namespace amontons

@@ -1,0 +1,42 @@
+#pragma once
+#include "amontons/base/ids.h"
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace amontons
+{
+/// Positions of an impactor node and of a face of up to four nodes, in 3D.
+inline constexpr int max_contact_dofs = 15;
+inline constexpr int max_tangents = 2;
+
+using ContactVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_contact_dofs, 1>;
+using ContactMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_contact_dofs, max_contact_dofs>;
+
+/// Gap and slip of one impactor node against one face (or analytic shape), linearised about the current state.
+///
+/// Dofs are ordered node by node: the impactor node, then the nodes of the face (an analytic shape: one node, the
+/// shape's point), `dim` components each; so the size is dim * n_nodes.
+/// Frame: n the target's outward normal, e_1 (and e_2 in 3D) orthonormal tangents with e_1 along the face's first local
+/// direction, e_2 = n x e_1. In the plane e_1 = (x_3 - x_2)/|x_3 - x_2|.
+struct ContactLinearisation
+{
+  int dim = 2;
+  double gap = 0;                              ///< g_n, length
+  std::array<double, max_tangents> slip{0, 0}; ///< g_t over the increment, along e_1, e_2, length
+  Eigen::Vector3d normal{0, 0, 0};
+  std::array<Eigen::Vector3d, max_tangents> tangent;
+  std::array<double, 2> xi{0, 0};                        ///< local coordinates of the projection, extended
+  ContactVector gap_gradient;                            ///< grad g_n
+  ContactMatrix gap_hessian;                             ///< second derivatives of g_n; zero in small strain
+  std::array<ContactVector, max_tangents> slip_gradient; ///< grad g_t
+  /// Virtual slip: what a unit tangential force along e_a does on the nodes. Equal to grad g_t where the slip over
+  /// the increment is zero (docs/decisions); in small strain always.
+  std::array<ContactVector, max_tangents> slip_direction;
+  std::array<ContactMatrix, max_tangents> slip_direction_gradient; ///< [a](i, j) = d slip_direction[a](i) / d x_j
+
+  [[nodiscard]] int n_tangents() const { return dim - 1; }
+  [[nodiscard]] int n_dofs() const { return static_cast<int>(gap_gradient.size()); }
+};
+} // namespace amontons

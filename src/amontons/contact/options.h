@@ -1,0 +1,25 @@
+#pragma once
+#include "amontons/base/error.h"
+
+#include <string>
+
+namespace amontons
+{
+/// What to do with impactor nodes that lie inside the target before anything moves.
+enum class InitialOverlap
+{
+  resolve, ///< a press-fit: the gap is closed within the first increment, stresses and all
+  adjust   ///< the gap is measured from its initial value: no stress comes of it
+};
+
+struct ContactOptions
+{
+  std::string name;
+  std::string impactor;            ///< physical group of faces
+  std::string target;              ///< physical group of faces, or the name of an analytic rigid body
+  double friction_coefficient = 0; ///< Coulomb's mu, >= 0
+  InitialOverlap initial_overlap = InitialOverlap::resolve;
+  double augmentation = 1; ///< factor on the automatic r, > 0; the converged result does not depend on it
+  SourceLocation where;
+};
+} // namespace amontons

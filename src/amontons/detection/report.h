@@ -1,0 +1,25 @@
+#pragma once
+#include "amontons/base/ids.h"
+
+#include <array>
+#include <map>
+#include <string>
+
+namespace amontons
+{
+/// What one detection did, for the user.
+struct DetectionReport
+{
+  std::string method;
+  double distance = 0;      ///< w used
+  Index distance_face = -1; ///< face whose size set w; -1 where the user gave it
+  Index n_pairs = 0;
+  std::map<std::string, Index> pairs_by_kind;      ///< "face", "edge", "vertex", "extension"
+  std::map<std::string, Index> unpaired_by_reason; ///< "outside_box", "too_far", "behind", "past_end"
+  Index n_penetrations = 0;
+  double deepest = 0;      ///< least gap, <= 0
+  Index deepest_node = -1; ///< local index on the impactor surface
+  std::array<double, 3> deepest_point{0, 0, 0};
+  std::map<std::string, double> seconds; ///< per step: "bounds", "fill", "nearest", "projection"
+};
+} // namespace amontons

@@ -1,0 +1,31 @@
+#pragma once
+#include "amontons/base/timer.h"
+#include "amontons/solution/results.h"
+
+namespace amontons
+{
+/// Listens to a run. Calls come in this order: start, then per increment attempt begin, iteration..., and accepted or
+/// rejected; at last finish. Every process calls; what an observer writes is its own affair.
+class Observer
+{
+public:
+  Observer() = default;
+  Observer(const Observer &) = delete;
+  Observer &operator=(const Observer &) = delete;
+  virtual ~Observer() = default;
+
+  /// @param n_dofs unknowns of displacement and multipliers
+  virtual void start(const SolutionState & /*initial*/, std::int64_t /*n_dofs*/) {}
+  virtual void begin_increment(int /*increment*/, double /*time*/, double /*time_step*/) {}
+  virtual void iteration(const IterationReport & /*report*/) {}
+  virtual void accepted(const IncrementReport & /*report*/, const SolutionState & /*state*/) {}
+  virtual void rejected(const IncrementReport & /*report*/, const std::string & /*cause*/) {}
+  /// Something the user should know that is no error.
+  virtual void warning(const std::string & /*message*/) {}
+  /// @param failure empty when the run reached its end
+  virtual void finish(const SolutionState & /*last*/, const Counters & /*counters*/, const Timers & /*timers*/,
+                      const std::string & /*failure*/)
+  {
+  }
+};
+} // namespace amontons

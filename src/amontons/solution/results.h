@@ -1,0 +1,91 @@
+#pragma once
+#include "amontons/bulk/mesh.h"
+#include "amontons/contact/element.h"
+#include "amontons/surface/surface.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace amontons
+{
+/// Everything that is known of one contact at the end of an increment; the only source of every number of force,
+/// pressure, gap, slip and area. Arrays run over the nodes of the impactor surface.
+struct ContactResult
+{
+  std::string name;
+  const Surface *impactor = nullptr; ///< node_ids are node indices of the mesh
+  int dim = 2;
+  std::vector<double> gap;      ///< [n], length; infinity for a node without a pair
+  std::vector<double> pressure; ///< [n], compression positive; -lambda_n / area
+  std::vector<double> traction; ///< [n * (dim-1)], on the impactor, along e_1, e_2 of the target face
+  std::vector<double> slip;     ///< [n * (dim-1)], summed over the increments since the node closed, same axes
+  std::vector<ContactStatus> status;
+  std::vector<double> force; ///< [n * dim], on the impactor node; axisymmetry: over the whole ring
+  std::vector<double> area;  ///< [n], tributary, reference
+  // sums and extremes of the above
+  int n_active = 0, n_stick = 0, n_slip = 0;
+  std::array<double, 3> normal_force{0, 0, 0};     ///< vector, on the impactor
+  std::array<double, 3> tangential_force{0, 0, 0}; ///< vector, on the impactor
+  double max_pressure = 0;
+  double min_gap = 0;      ///< over nodes with a pair
+  double contact_area = 0; ///< of active nodes
+};
+
+/// Work done so far; the run record shows them.
+struct Counters
+{
+  std::int64_t n_bulk_assemblies = 0;
+  std::int64_t n_pattern_builds = 0;
+  std::int64_t n_contact_updates = 0;
+  std::int64_t n_factorizations = 0;
+  std::int64_t n_preconditioner_setups = 0;
+  std::int64_t n_detections = 0;
+  std::int64_t n_newton_iterations = 0;
+  std::int64_t n_linear_iterations = 0;
+};
+
+/// Force with which a prescribed region (an entry of `boundary`) or rigid body holds the rest, in total.
+struct Reaction
+{
+  std::string region;
+  std::array<double, 3> force{0, 0, 0};
+};
+
+/// A converged state.
+struct SolutionState
+{
+  const Mesh *mesh = nullptr;
+  double time = 0;
+  int increment = 0;                ///< counts from 1; 0 is the initial state
+  std::vector<double> displacement; ///< [n_nodes * dim]
+  /// Cauchy stress, cell means, [n_cells * 6]: xx, yy, zz, xy, yz, xz (axisymmetry: zz is the hoop). Zero in rigid
+  /// cells.
+  std::vector<double> stress;
+  std::vector<ContactResult> contacts;
+  std::vector<Reaction> reactions;
+};
+
+/// One Newton iteration, as it ended.
+struct IterationReport
+{
+  int iteration = 0;     ///< counts from 1
+  double residual = 0;   ///< relative to the forces present
+  double correction = 0; ///< largest displacement change over the largest displacement
+  int n_status_changes = 0;
+  int n_active = 0, n_stick = 0, n_slip = 0;
+  double step_length = 1; ///< below 1 where the step was damped
+  std::string remark;     ///< named causes, e.g. "node 812 open<->slip for the 3rd time"; empty if none
+};
+
+/// One increment, as it ended.
+struct IncrementReport
+{
+  double time = 0; ///< at its end
+  double time_step = 0;
+  int newton_iterations = 0;
+  int linear_iterations = 0;
+  int cutbacks = 0; ///< attempts that failed before this one
+};
+} // namespace amontons
