@@ -41,6 +41,9 @@ struct Connectivity
 /// Shape of a cell or facet from its dimension and its number of nodes.
 CellShape cell_shape(int dim, std::size_t n_nodes);
 
+/// "points", "curves", "surfaces" or "volumes", as Gmsh calls physical groups of dimension 0 to 3.
+std::string dimension_word(int dim);
+
 /// A physical group of the mesh file.
 struct Group
 {
@@ -49,7 +52,8 @@ struct Group
   std::vector<Index> cells; ///< for dim == Mesh::dim: positions in Mesh::cells, in the order of `entities`
 };
 
-/// The mesh as read: one process, degree 1, right-handed cells. Only nodes of some cell or group are kept.
+/// The mesh as read: one process, degree 1, right-handed cells. Only nodes of some cell or named group are kept, by
+/// increasing tag; cells are those of the named groups of dimension `dim`, each once.
 struct Mesh
 {
   int dim = 2;
@@ -63,8 +67,12 @@ struct Mesh
   [[nodiscard]] Index n_nodes() const { return static_cast<Index>(node_tags.size()); }
 };
 
-/// Reads a .msh (2.2 or 4.1, ASCII or binary) or meshes a .geo with the given parameters, then refines.
-/// @throws UserError: unreadable file, cells of a degree above 1 or of a shape not known, inverted or degenerate cells
+/// Reads a .msh (2.2 or 4.1, ASCII or binary) or meshes a .geo with the given parameters, then refines: each cell into
+/// 2^dim of its shape; new nodes lie on the curved geometry of a .geo, midway between the old ones of a .msh.
+/// Physical groups without a name are passed over. Coordinates that leave the plane, or the axisymmetric half-plane, by
+/// round-off only (1e-10 of the mesh's size) are put on it. The same input gives the same mesh. Local.
+/// @throws UserError: unreadable file, a parameter that the .geo does not declare, no named group or two of one name,
+///         cells of a degree above 1 or of a shape not known or of the wrong dimension, inverted or degenerate cells
 ///         (clockwise 2D cells are turned, not refused), NaN coordinates, negative radius in axisymmetry.
 Mesh read_mesh(const MeshOptions &options);
 
