@@ -39,6 +39,10 @@ ContactLinearisation linearise_shape_small(int dim, bool axisymmetric, const Sha
                                            std::span<const double> reference_impactor,
                                            std::span<const double> displacement, std::span<const double> slip_origin);
 
+/// Fraction of the increment, in [0, 1], at which the gap vanished, interpolated linearly: 0 where it was closed at
+/// tau, 1 where it is not closed now.
+double closing_fraction(double gap_start, double gap_now);
+
 /// Where a node that was open at tau (gap_start > 0) and is found closed (gap_now <= 0) in a trial state takes its slip
 /// from: the point of its way, interpolated linearly in the gap, at which the gap vanished, carried back to the
 /// target's geometry at tau. Same arguments and frame as linearise_finite. @return slip_origin, [dim]
