@@ -1,0 +1,195 @@
+#include "amontons/surface/projection.h"
+
+#include "amontons/surface/quadrilateral.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+
+namespace amontons
+{
+FaceCoordinates gather_face(int dim, std::span<const Index> nodes, std::span<const double> coordinates)
+{
+  FaceCoordinates face;
+  face.n_nodes = static_cast<int>(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    const double *x = coordinates.data() + static_cast<std::ptrdiff_t>(nodes[i]) * dim;
+    face.x[i] = Eigen::Vector3d(x[0], x[1], dim == 3 ? x[2] : 0.0);
+  }
+  return face;
+}
+
+std::array<double, 4> shape_functions(int n_nodes, LocalPoint xi)
+{
+  const auto [s, t] = xi;
+  if (n_nodes == 2)
+    return {1 - s, s, 0, 0};
+  if (n_nodes == 3)
+    return {1 - s - t, s, t, 0};
+  return {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
+}
+
+std::array<std::array<double, 4>, 2> shape_gradients(int n_nodes, LocalPoint xi)
+{
+  const auto [s, t] = xi;
+  if (n_nodes == 2)
+    return {{{-1, 1, 0, 0}, {0, 0, 0, 0}}};
+  if (n_nodes == 3)
+    return {{{-1, 1, 0, 0}, {-1, 0, 1, 0}}};
+  return {{{t - 1, 1 - t, t, -t}, {s - 1, -s, s, 1 - s}}};
+}
+
+Eigen::Vector3d face_point(const FaceCoordinates &face, LocalPoint xi)
+{
+  const auto [s, t] = xi;
+  const auto &x = face.x;
+  if (face.n_nodes == 2)
+    return x[0] + s * (x[1] - x[0]);
+  if (face.n_nodes == 3)
+    return x[0] + s * (x[1] - x[0]) + t * (x[2] - x[0]);
+  return (1 - t) * ((1 - s) * x[0] + s * x[1]) + t * (s * x[2] + (1 - s) * x[3]);
+}
+
+std::array<Eigen::Vector3d, 2> face_tangents(const FaceCoordinates &face, LocalPoint xi)
+{
+  const auto [s, t] = xi;
+  const auto &x = face.x;
+  if (face.n_nodes == 2)
+    return {x[1] - x[0], Eigen::Vector3d::UnitZ()};
+  if (face.n_nodes == 3)
+    return {x[1] - x[0], x[2] - x[0]};
+  return {(1 - t) * (x[1] - x[0]) + t * (x[2] - x[3]), (1 - s) * (x[3] - x[0]) + s * (x[2] - x[1])};
+}
+
+Eigen::Vector3d face_normal(const FaceCoordinates &face, LocalPoint xi)
+{
+  const auto tangents = face_tangents(face, xi);
+  return tangents[0].cross(tangents[1]).normalized();
+}
+
+namespace
+{
+// Parameter of the closest point of the line through a and b.
+double on_line(const Eigen::Vector3d &a, const Eigen::Vector3d &b, const Eigen::Vector3d &x)
+{
+  const Eigen::Vector3d direction = b - a;
+  const double length2 = direction.squaredNorm();
+  return length2 > 0 ? (x - a).dot(direction) / length2 : 0.0;
+}
+
+LocalPoint on_triangle_plane(const FaceCoordinates &face, const Eigen::Vector3d &x)
+{
+  const Eigen::Vector3d a = face.x[1] - face.x[0], b = face.x[2] - face.x[0], e = x - face.x[0];
+  const double aa = a.dot(a), ab = a.dot(b), bb = b.dot(b), ea = e.dot(a), eb = e.dot(b);
+  const double det = aa * bb - ab * ab;
+  if (!(det > 0))
+    return {-1, -1};
+  return {(bb * ea - ab * eb) / det, (aa * eb - ab * ea) / det};
+}
+
+ClosestPoint at(const FaceCoordinates &face, LocalPoint xi, const Eigen::Vector3d &x)
+{
+  ClosestPoint result{xi, face_point(face, xi), 0};
+  result.squared_distance = (x - result.point).squaredNorm();
+  return result;
+}
+
+ClosestPoint closest_point_on_triangle(const FaceCoordinates &face, const Eigen::Vector3d &x)
+{
+  const LocalPoint xi = on_triangle_plane(face, x);
+  if (xi[0] > 0 && xi[1] > 0 && xi[0] + xi[1] < 1)
+    return at(face, xi, x);
+  const double a = std::clamp(on_line(face.x[0], face.x[1], x), 0.0, 1.0);
+  const double b = std::clamp(on_line(face.x[1], face.x[2], x), 0.0, 1.0);
+  const double c = std::clamp(on_line(face.x[2], face.x[0], x), 0.0, 1.0);
+  ClosestPoint best = at(face, {a, 0}, x);
+  for (const LocalPoint candidate : {LocalPoint{1 - b, b}, LocalPoint{0, 1 - c}})
+    if (const ClosestPoint other = at(face, candidate, x); other.squared_distance < best.squared_distance)
+      best = other;
+  return best;
+}
+
+FaceProjection projection_at(const FaceCoordinates &face, LocalPoint xi, const Eigen::Vector3d &x)
+{
+  FaceProjection result{xi, face_point(face, xi), face_normal(face, xi), 0};
+  result.gap = (x - result.point).dot(result.normal);
+  return result;
+}
+
+// The face continued by its tangent plane at xi.
+FaceProjection project_on_tangent_plane(const FaceCoordinates &face, LocalPoint xi, const Eigen::Vector3d &x)
+{
+  FaceProjection result = projection_at(face, xi, x);
+  const auto [a, b] = face_tangents(face, xi);
+  const Eigen::Vector3d e = x - result.point;
+  const double aa = a.dot(a), ab = a.dot(b), bb = b.dot(b), det = aa * bb - ab * ab;
+  if (det > 0)
+  {
+    result.xi[0] += (bb * e.dot(a) - ab * e.dot(b)) / det;
+    result.xi[1] += (aa * e.dot(b) - ab * e.dot(a)) / det;
+  }
+  result.point = x - result.gap * result.normal;
+  return result;
+}
+} // namespace
+
+ClosestPoint closest_point(const FaceCoordinates &face, const Eigen::Vector3d &x)
+{
+  if (face.n_nodes == 2)
+    return at(face, {std::clamp(on_line(face.x[0], face.x[1], x), 0.0, 1.0), 0}, x);
+  if (face.n_nodes == 3)
+    return closest_point_on_triangle(face, x);
+  return closest_point_on_quadrilateral(face, x);
+}
+
+FaceProjection project_on_face(const FaceCoordinates &face, const Eigen::Vector3d &x, LocalPoint start)
+{
+  if (face.n_nodes == 2)
+    return projection_at(face, {on_line(face.x[0], face.x[1], x), 0}, x);
+  if (face.n_nodes == 3)
+    return projection_at(face, on_triangle_plane(face, x), x);
+  if (newton_on_quadrilateral(face, x, start))
+    return projection_at(face, start, x);
+  return project_on_tangent_plane(face, closest_point(face, x).xi, x);
+}
+
+FaceProjection project_on_face(const FaceCoordinates &face, const Eigen::Vector3d &x)
+{
+  return project_on_face(face, x, face.n_nodes == 4 ? closest_point(face, x).xi : LocalPoint{0, 0});
+}
+
+FeatureOfFace feature_at(int n_nodes, LocalPoint xi, double tolerance)
+{
+  const auto [s, t] = xi;
+  if (n_nodes == 2)
+  {
+    if (s <= tolerance || s >= 1 - tolerance)
+      return {FaceFeature::vertex, s <= tolerance ? 0 : 1};
+    return {};
+  }
+  // On which edges, in the order of the vertices they start from.
+  std::array<bool, 4> on{};
+  if (n_nodes == 3)
+    on = {t <= tolerance, s + t >= 1 - tolerance, s <= tolerance, false};
+  else
+    on = {t <= tolerance, s >= 1 - tolerance, t >= 1 - tolerance, s <= tolerance};
+  for (int k = 0; k < n_nodes; ++k)
+    if (on[k] && on[(k + n_nodes - 1) % n_nodes])
+      return {FaceFeature::vertex, k};
+  for (int k = 0; k < n_nodes; ++k)
+    if (on[k])
+      return {FaceFeature::edge, k};
+  return {};
+}
+
+bool in_face(int n_nodes, LocalPoint xi, double tolerance)
+{
+  const auto [s, t] = xi;
+  if (n_nodes == 2)
+    return s >= -tolerance && s <= 1 + tolerance;
+  if (n_nodes == 3)
+    return s >= -tolerance && t >= -tolerance && s + t <= 1 + tolerance;
+  return s >= -tolerance && t >= -tolerance && s <= 1 + tolerance && t <= 1 + tolerance;
+}
+} // namespace amontons
