@@ -2,7 +2,7 @@
 
 DefineConstant[
   n_small = {8, Name "n_small"}, // cells per unit length, small block
-  n_large = {5, Name "n_large"}  // cells per unit length, large block
+  n_large = {6, Name "n_large"}  // cells per unit length, large block
 ];
 
 length = 4; // of the large block, along x
