@@ -1,5 +1,6 @@
 #pragma once
 #include "amontons/contact/linearisation.h"
+#include "amontons/surface/projection.h"
 
 #include <array>
 #include <span>
@@ -140,9 +141,9 @@ struct Projection
   std::array<double, 2> xi{0, 0};
 };
 
-/// Stationary point of the distance to the face, xi not clamped. Segments and triangles: exact in one step. Bilinear
-/// faces: Newton from xi_guess, kept while it stays within half a face of the face and ends in a minimum; otherwise the
-/// tangent plane at the closest point of the face stands in for the extended face.
+/// Closest point of the extended face, xi not clamped, as detection finds it (surface/projection.h). Bilinear faces:
+/// Newton from xi_guess, then from the closest point of the face; where that wanders off, the tangent plane at the
+/// closest point stands in for the extended face.
 /// @throws NumericalFailure if the face has no area
 template<int dim, int n_nodes>
 Projection project(const FaceNodes<double, dim, n_nodes> &face, const Point<double, dim> &x,

@@ -13,8 +13,11 @@ namespace amontons
 ///        tau (the impactor node's position then, or the point where it closed), [dim]
 /// @param face_at_start positions of the same face's nodes at tau, [n_face_nodes * dim]
 /// @param xi_guess start of the projection, from the pairing
-/// Slip: g_t = sum_a a_a (xi^a - alpha^a), alpha the projection of `slip_origin` on the (extended) face as it was at
-/// tau (THEORY.md section 3; the paper, section 2).
+/// Slip: g_t = tangential part of xbar(xi) - xbar(alpha), two points of the face as it is now, alpha the projection of
+/// `slip_origin` on the (extended) face as it was at tau and a datum when differentiating. On segments and triangles
+/// that is sum_a a_a (xi^a - alpha^a) (THEORY.md section 3; the paper, section 2); on bilinear faces it stays exact in
+/// a plane.
+/// @throws NumericalFailure if the face has collapsed
 ContactLinearisation linearise_finite(int dim, std::span<const double> impactor, std::span<const double> face,
                                       std::span<const double> slip_origin, std::span<const double> face_at_start,
                                       std::array<double, 2> xi_guess);
@@ -30,6 +33,10 @@ ContactLinearisation linearise_small(int dim, std::span<const double> reference_
 
 /// Analytic rigid target that translates with its point (Shape::point).
 /// Dofs: impactor, then the shape's point. `slip_origin` is a position at tau, `shape_point_at_start` the point's then.
+/// Slip: the chord from where the slip started to where the node is, both relative to the shape's point, projected on
+/// the tangent plane at the closest point. A cone is extended beyond its apex. e_1 lies along the axis of a cylinder,
+/// the generator of a cone; on a plane it is made from an axis of coordinates, on a sphere from a fixed direction.
+/// @throws NumericalFailure if the node lies at the centre of a circle or sphere or on the axis of a cylinder
 ContactLinearisation linearise_shape(int dim, bool axisymmetric, const Shape &shape, std::span<const double> impactor,
                                      std::span<const double> shape_point, std::span<const double> slip_origin,
                                      std::span<const double> shape_point_at_start);
@@ -49,4 +56,9 @@ double closing_fraction(double gap_start, double gap_now);
 Eigen::Vector3d closing_origin_finite(int dim, std::span<const double> impactor, std::span<const double> face,
                                       std::span<const double> impactor_at_start, std::span<const double> face_at_start,
                                       std::array<double, 2> xi_guess);
+
+/// The same for an analytic target; arguments as in linearise_shape.
+Eigen::Vector3d closing_origin_shape(int dim, bool axisymmetric, const Shape &shape, std::span<const double> impactor,
+                                     std::span<const double> shape_point, std::span<const double> impactor_at_start,
+                                     std::span<const double> shape_point_at_start);
 } // namespace amontons
