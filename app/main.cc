@@ -1,0 +1,134 @@
+// The command `amontons`: reads the command line, starts the engine, turns errors into exit codes.
+#include "commands.h"
+
+#include "amontons/algebra/session.h"
+#include "amontons/base/error.h"
+#include "amontons/input/deck.h"
+#include "amontons/output/version.h"
+#include "amontons/parallel/log.h"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <iostream>
+#include <map>
+
+namespace
+{
+using namespace amontons;
+
+/// The options, and the command that was chosen.
+struct CommandLine
+{
+  DeckArguments arguments;
+  std::function<ExitCode(const Communicator &, spdlog::logger &)> command;
+};
+
+CLI::App *add_deck_command(CLI::App &app, const std::string &name, const std::string &help, DeckArguments &arguments)
+{
+  CLI::App *command = app.add_subcommand(name, help);
+  command->add_option("DECK", arguments.deck, "the problem (YAML)")->required();
+  command
+      ->add_option("--set", arguments.overrides,
+                   "override a key of the deck; a list's items by position: contact.0.friction.coefficient=0.4")
+      ->type_name("KEY.PATH=VALUE")
+      ->take_all()
+      ->expected(1);
+  return command;
+}
+
+void add_commands(CLI::App &app, CommandLine &line)
+{
+  DeckArguments &arguments = line.arguments;
+  CLI::App *run = add_deck_command(app, "run", "solve a deck", arguments);
+  run->add_option("--output", arguments.output, "folder of the results [<deck>-results]")->type_name("DIR");
+  run->callback([&] { line.command = [&](const Communicator &world, auto &) { return run_deck(arguments, world); }; });
+
+  add_deck_command(app, "check", "tell what can be known before solving", arguments)
+      ->callback([&] { line.command = [&](const auto &, auto &log) { return check_deck(arguments, log); }; });
+
+  static const std::map<std::string, DetectionMethod> methods{{"exact", DetectionMethod::exact},
+                                                              {"nearest-node", DetectionMethod::nearest_node},
+                                                              {"brute", DetectionMethod::brute}};
+  CLI::App *detect = add_deck_command(app, "detect", "detect contact once and tell statistics", arguments);
+  detect->add_option("--method", arguments.method, "exact, nearest-node or brute [the deck's]")
+      ->transform(CLI::Transformer(methods))
+      ->check(CLI::IsMember(methods))
+      ->type_name("METHOD");
+  detect->add_flag("--json", arguments.json, "as JSON");
+  detect->callback([&] { line.command = [&](const auto &, auto &log) { return detect_deck(arguments, log); }; });
+
+  app.add_subcommand("version", "print the version")
+      ->callback(
+          [&]
+          {
+            line.command = [](const auto &, auto &)
+            {
+              std::cout << "amontons " << version() << '\n';
+              return ExitCode::solved;
+            };
+          });
+  // For the documentation; no user needs it.
+  app.add_subcommand("reference", "print the page of all keys of a deck")
+      ->group("")
+      ->callback(
+          [&]
+          {
+            line.command = [](const auto &, auto &)
+            {
+              std::cout << deck_reference();
+              return ExitCode::solved;
+            };
+          });
+}
+
+ExitCode execute(int argc, char **argv, const Communicator &world, spdlog::logger &log)
+{
+  CLI::App app("Frictional contact between deformable bodies by finite elements.", "amontons");
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 solved, 2 bad deck, mesh or command line, 3 not converged, 4 internal error.");
+  CommandLine line;
+  add_commands(app, line);
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::ParseError &error)
+  {
+    if (error.get_exit_code() == 0) // --help
+      return world.is_root() ? static_cast<ExitCode>(app.exit(error)) : ExitCode::solved;
+    throw UserError(std::string(error.what()) + " (see amontons --help)");
+  }
+  if (world.size() > 1)
+    throw UserError("one process for now: run without mpirun, or with -n 1 (this run has " +
+                    std::to_string(world.size()) + ")");
+  return line.command(world, log);
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+  const AlgebraSession session;
+  const Communicator world(MPI_COMM_WORLD);
+  const auto log = make_log(world);
+  ExitCode code = ExitCode::internal_error;
+  try
+  {
+    code = execute(argc, argv, world, *log);
+  }
+  catch (const UserError &error)
+  {
+    log->error("{}", error.what());
+    code = ExitCode::bad_input;
+  }
+  catch (const NumericalFailure &error)
+  {
+    log->error("{}", error.what());
+    code = ExitCode::not_converged;
+  }
+  catch (const std::exception &error)
+  {
+    log->error("internal error: {}", error.what());
+  }
+  return static_cast<int>(code);
+}

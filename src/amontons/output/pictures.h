@@ -1,0 +1,44 @@
+#pragma once
+#include "amontons/output/folder.h"
+#include "amontons/output/options.h"
+#include "amontons/output/vtu.h"
+#include "amontons/solution/observer.h"
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace amontons
+{
+/// The bodies of a state as a grid in reference coordinates: displacement and stress as asked for, body of each cell.
+/// Facets of a rigid body meshed by its surface alone are cells too.
+VtuGrid body_grid(const SolutionState &state, const std::vector<BodyOptions> &bodies,
+                  const std::vector<OutputField> &fields);
+
+/// A contact's impactor surface as a grid in reference coordinates, with everything of `contact` on its nodes.
+VtuGrid contact_grid(const ContactResult &contact, const SolutionState &state);
+
+/// Writes solution.pvd, contact_<name>.pvd and their .vtu files: the initial state, every n-th increment, the last.
+class Pictures : public Observer
+{
+public:
+  /// `folder` must outlive it.
+  Pictures(const ResultFolder &folder, OutputOptions options, std::vector<BodyOptions> bodies);
+
+  void start(const SolutionState &initial, std::int64_t n_dofs) override;
+  void accepted(const IncrementReport &report, const SolutionState &state) override;
+  void finish(const SolutionState &last, const Counters &counters, const Timers &timers,
+              const std::string &failure) override;
+
+private:
+  void write(const SolutionState &state);
+  void add(const std::string &stem, const SolutionState &state, const VtuGrid &grid);
+
+  const ResultFolder &folder_;
+  OutputOptions options_;
+  std::vector<BodyOptions> bodies_;
+  int last_written_ = -1;                                                     ///< increment
+  std::map<std::string, std::vector<std::pair<double, std::string>>> series_; ///< by stem: time and file
+};
+} // namespace amontons

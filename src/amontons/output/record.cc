@@ -1,0 +1,136 @@
+#include "amontons/output/record.h"
+
+#include "amontons/output/version.h"
+
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+#include <span>
+
+namespace amontons
+{
+using Json = nlohmann::ordered_json;
+
+namespace
+{
+std::span<const double> vector(const std::array<double, 3> &components, int dim)
+{
+  return {components.data(), static_cast<std::size_t>(dim)};
+}
+
+Json contact_entry(const ContactResult &contact)
+{
+  return {{"name", contact.name},
+          {"n_impactor_nodes", contact.status.size()},
+          {"n_active", contact.n_active},
+          {"n_stick", contact.n_stick},
+          {"n_slip", contact.n_slip},
+          {"normal_force", vector(contact.normal_force, contact.dim)},
+          {"tangential_force", vector(contact.tangential_force, contact.dim)},
+          {"max_pressure", contact.max_pressure},
+          {"min_gap", contact.min_gap}, // infinity is written null
+          {"contact_area", contact.contact_area}};
+}
+
+Json increment_entry(const IncrementReport &report, const SolutionState &state)
+{
+  Json entry = {{"increment", state.increment},
+                {"time", report.time},
+                {"time_step", report.time_step},
+                {"newton_iterations", report.newton_iterations},
+                {"linear_iterations", report.linear_iterations},
+                {"cutbacks", report.cutbacks},
+                {"contacts", Json::array()},
+                {"reactions", Json::array()}};
+  for (const ContactResult &contact : state.contacts)
+    entry["contacts"].push_back(contact_entry(contact));
+  for (const Reaction &reaction : state.reactions)
+    entry["reactions"].push_back({{"region", reaction.region}, {"force", vector(reaction.force, state.mesh->dim)}});
+  return entry;
+}
+
+/// Largest resident memory of this process so far, 10^6 bytes.
+double peak_rss_mb()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024 * 1e-6;
+}
+} // namespace
+
+RunRecord::RunRecord(const ResultFolder &folder, const std::string &title, const std::string &deck, int n_processes)
+  : folder_(folder)
+  , record_(std::make_unique<Json>(Json{{"version", version()},
+                                        {"title", title},
+                                        {"deck", deck},
+                                        {"status", "running"},
+                                        {"processes", n_processes},
+                                        {"n_dofs", nullptr},
+                                        {"increments", Json::array()},
+                                        {"rejected", Json::array()},
+                                        {"warnings", Json::array()},
+                                        {"totals", Json::object()}}))
+{
+}
+
+RunRecord::~RunRecord() = default;
+
+void RunRecord::start(const SolutionState & /*initial*/, std::int64_t n_dofs)
+{
+  (*record_)["n_dofs"] = n_dofs;
+  write();
+}
+
+void RunRecord::accepted(const IncrementReport &report, const SolutionState &state)
+{
+  (*record_)["increments"].push_back(increment_entry(report, state));
+  write();
+}
+
+void RunRecord::rejected(const IncrementReport &report, const std::string &cause)
+{
+  (*record_)["rejected"].push_back({{"time", report.time},
+                                    {"time_step", report.time_step},
+                                    {"newton_iterations", report.newton_iterations},
+                                    {"cause", cause}});
+}
+
+void RunRecord::warning(const std::string &message)
+{
+  (*record_)["warnings"].push_back(message);
+}
+
+void RunRecord::finish(const SolutionState & /*last*/, const Counters &counters, const Timers &timers,
+                       const std::string &failure)
+{
+  Json &totals = (*record_)["totals"];
+  totals["timings"] = timers.seconds();
+  totals["n_bulk_assemblies"] = counters.n_bulk_assemblies;
+  totals["n_pattern_builds"] = counters.n_pattern_builds;
+  totals["n_contact_updates"] = counters.n_contact_updates;
+  totals["n_factorizations"] = counters.n_factorizations;
+  totals["n_preconditioner_setups"] = counters.n_preconditioner_setups;
+  totals["n_detections"] = counters.n_detections;
+  totals["n_newton_iterations"] = counters.n_newton_iterations;
+  totals["n_linear_iterations"] = counters.n_linear_iterations;
+  if (!failure.empty())
+    return fail(failure);
+  (*record_)["status"] = "converged";
+  write();
+}
+
+void RunRecord::fail(const std::string &cause)
+{
+  (*record_)["status"] = "failed";
+  (*record_)["failure"] = cause;
+  write();
+}
+
+void RunRecord::write()
+{
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
+  (*record_)["totals"]["wall_s"] = wall.count();
+  (*record_)["totals"]["peak_rss_mb"] = peak_rss_mb();
+  folder_.write("record.json", record_->dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+} // namespace amontons

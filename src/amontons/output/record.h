@@ -1,0 +1,38 @@
+#pragma once
+#include "amontons/output/folder.h"
+#include "amontons/solution/observer.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+namespace amontons
+{
+/// Keeps record.json (docs/outputs.md) up to date: at the start, after every increment, at the end.
+class RunRecord : public Observer
+{
+public:
+  /// `folder` must outlive it. @param n_processes that the run uses
+  RunRecord(const ResultFolder &folder, const std::string &title, const std::string &deck, int n_processes);
+  ~RunRecord() override;
+
+  void start(const SolutionState &initial, std::int64_t n_dofs) override;
+  void accepted(const IncrementReport &report, const SolutionState &state) override;
+  void rejected(const IncrementReport &report, const std::string &cause) override;
+  void warning(const std::string &message) override;
+  void finish(const SolutionState &last, const Counters &counters, const Timers &timers,
+              const std::string &failure) override;
+
+  /// For a run that an exception ended: status "failed", with its cause.
+  void fail(const std::string &cause);
+
+private:
+  void write();
+
+  const ResultFolder &folder_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::unique_ptr<nlohmann::ordered_json> record_;
+};
+} // namespace amontons
