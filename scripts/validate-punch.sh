@@ -5,5 +5,6 @@
 set -euo pipefail
 source "$(dirname "$0")/environment.sh"
 
+export PYTHONDONTWRITEBYTECODE=1
 [ -n "${AMONTONS:-}" ] || bash scripts/build.sh release
 exec python3 scripts/validate_punch.py "${AMONTONS:-build/release/app/amontons}" "$@"
