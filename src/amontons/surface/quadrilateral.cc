@@ -114,8 +114,8 @@ struct Roots
   int n = 0;
 };
 
-// Points of [0, 1] that contain every root: between the derivative's roots the polynomial is monotone; those roots are
-// kept too, so that a double root is not lost to round-off.
+// Roots in [0, 1] at which the sign changes: between the derivative's roots the polynomial is monotone. A double root
+// is not found; it is no minimum of the distance either.
 template<std::size_t degree>
 Roots roots_in_unit_interval(const Polynomial<degree> &a)
 {

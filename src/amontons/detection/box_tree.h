@@ -1,0 +1,63 @@
+#pragma once
+#include "amontons/base/ids.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace amontons
+{
+/// Boxes of faces in a tree of eight children per node, packed along the Hilbert curve (Kamel, Faloutsos 1993): the
+/// faces are sorted along the curve, eight successive ones make a node, eight successive nodes a node above, and so on;
+/// no pointers. What a query costs hangs on how many faces come near, not on their sizes: neither a long edge nor a
+/// graded mesh harms it. When the faces move the boxes are made anew in the same order, which is all that stays to be
+/// done between detections.
+template<int dim>
+class BoxTree
+{
+public:
+  static constexpr int width = 8;
+
+  using Box = std::array<double, static_cast<std::size_t>(2 * dim)>; ///< lower corner, then upper corner
+
+  /// Sorts where there is no order yet or it has become poor, then refits.
+  void fill(std::span<const Box> boxes);
+
+  [[nodiscard]] std::size_t n_boxes() const { return order_.size(); }
+
+  /// Visits boxes nearest first within each node, as long as they come within the bound.
+  /// @param squared_bound read anew after each visit, so that the visitor may shrink it
+  /// @param visit called with the box's index
+  template<typename Visitor>
+  void visit_within(const std::array<double, dim> &x, const double &squared_bound, Visitor &&visit) const;
+
+private:
+  /// Eight boxes, single precision, grown by what rounding may have taken, relative to origin_.
+  struct Node
+  {
+    std::array<std::array<float, width>, dim> low, high;
+  };
+  struct Entry
+  {
+    float squared_distance;
+    std::uint32_t level;
+    std::uint32_t index;
+  };
+
+  void sort(std::span<const Box> boxes);
+  void refit(std::span<const Box> boxes);
+  [[nodiscard]] double total_extent() const;
+
+  std::array<double, dim> origin_{};
+  float slack_ = 0;
+  std::vector<Index> order_;
+  std::vector<Node> nodes_;              ///< level by level, the leaves first
+  std::vector<std::size_t> level_begin_; ///< in nodes_
+  std::vector<std::pair<std::uint64_t, Index>> keys_;
+  double sorted_extent_ = 0;
+};
+} // namespace amontons
+
+#include "amontons/detection/box_tree_query.h"

@@ -1,0 +1,59 @@
+#include "amontons/detection/search.h"
+
+namespace amontons
+{
+namespace
+{
+class BruteSearch : public Search
+{
+public:
+  void fill(const Target &target, const Query &) override
+  {
+    faces_.resize(target.surface().face_ids.size());
+    for (Index f = 0; f < target.surface().n_faces(); ++f)
+      faces_[f] = target.face(f);
+  }
+
+  void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) override
+  {
+    const auto time = timers.measure("nearest");
+    const Surface &surface = target.surface();
+    for (const Index node : query.nodes)
+    {
+      const Eigen::Vector3d x = point_of(query.x, surface.dim, node);
+      Candidate best{-1, {0, 0}, query.w * query.w};
+      for (Index f = 0; f < surface.n_faces(); ++f)
+      {
+        const Candidate candidate = on(f, x);
+        if (candidate.squared_distance <= best.squared_distance &&
+            (best.face < 0 || comes_before(surface, candidate, best)))
+          best = candidate;
+      }
+      result[node] = best;
+    }
+  }
+
+  void within(const Target &target, const Query &query, Index node, std::vector<Candidate> &result) override
+  {
+    const Eigen::Vector3d x = point_of(query.x, target.surface().dim, node);
+    for (Index f = 0; f < target.surface().n_faces(); ++f)
+      if (const Candidate candidate = on(f, x); candidate.squared_distance <= query.w * query.w)
+        result.push_back(candidate);
+  }
+
+private:
+  [[nodiscard]] Candidate on(Index f, const Eigen::Vector3d &x) const
+  {
+    const ClosestPoint closest = closest_point(faces_[f], x);
+    return {f, closest.xi, closest.squared_distance};
+  }
+
+  std::vector<FaceCoordinates> faces_;
+};
+} // namespace
+
+std::unique_ptr<Search> make_brute_search()
+{
+  return std::make_unique<BruteSearch>();
+}
+} // namespace amontons

@@ -1,0 +1,271 @@
+#include "amontons/detection/detector.h"
+
+#include "amontons/base/error.h"
+#include "amontons/detection/search.h"
+#include "amontons/detection/search_distance.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace amontons
+{
+namespace
+{
+using Eigen::Vector3d;
+
+// Default extension past the target's ends, in units of the last face's extent in that direction.
+constexpr double default_extension = 0.1;
+// Cosine above which the impactor's and the face's normals point the same way.
+constexpr double same_way = 0.5;
+// Depth below which a node lies on the surface, in units of w.
+constexpr double on_surface = 1e-9;
+
+const char *name_of(DetectionMethod method)
+{
+  switch (method)
+  {
+  case DetectionMethod::exact:
+    return "exact";
+  case DetectionMethod::nearest_node:
+    return "nearest-node";
+  case DetectionMethod::brute:
+    return "brute";
+  }
+  return "";
+}
+
+std::unique_ptr<Search> make_search(DetectionMethod method, int dim)
+{
+  switch (method)
+  {
+  case DetectionMethod::brute:
+    return make_brute_search();
+  case DetectionMethod::nearest_node:
+    return make_nearest_node_search();
+  case DetectionMethod::exact:
+    break;
+  }
+  return make_tree_search(dim);
+}
+
+class SurfaceDetector : public Detector
+{
+public:
+  SurfaceDetector(const DetectionOptions &options, const Surface &impactor, const Surface &target)
+    : options_(options)
+    , impactor_(impactor)
+    , target_(target)
+    , search_(make_search(options.method, target.dim))
+    , pairing_(impactor.node_ids.size())
+    , candidates_(impactor.node_ids.size())
+  {
+    AMONTONS_ASSERT(impactor.dim == target.dim);
+    if (options_.extension && !(*options_.extension >= 0 && std::isfinite(*options_.extension)))
+      throw UserError("the detection's extension must be a length, zero or more");
+  }
+
+  const Pairing &detect(std::span<const double> impactor_x, std::span<const double> target_x, double reach) override;
+  [[nodiscard]] DetectionReport report() const override { return report_; }
+
+private:
+  enum class Verdict
+  {
+    taken,
+    past_end,
+    behind
+  };
+
+  void choose_nodes(std::span<const double> impactor_x, std::span<const double> target_x);
+  Verdict judge(const Feature &feature, Index node) const;
+  Vector3d impactor_normal(Index node) const;
+  Pair pair_of(Index node);
+  Pair next_best(Index node, const Vector3d &x);
+  void summarise();
+
+  DetectionOptions options_;
+  const Surface &impactor_;
+  Target target_;
+  std::unique_ptr<Search> search_;
+  SearchDistance distance_;
+  Pairing pairing_;
+  DetectionReport report_;
+  Timers timers_;
+  // Kept for their memory.
+  std::vector<Candidate> candidates_; ///< closest face per impactor node; a hint for the next detection
+  std::vector<Index> nodes_;          ///< inside the target's grown box
+  std::vector<Candidate> considered_;
+  Query query_;
+};
+
+// Nodes inside the target's box grown by w; the others are done with.
+void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span<const double> target_x)
+{
+  const int dim = impactor_.dim;
+  std::array<double, 3> low, high;
+  low.fill(INFINITY);
+  high.fill(-INFINITY);
+  double sum = 0;
+  for (std::size_t i = 0; i < target_x.size(); i += dim)
+    for (int c = 0; c < dim; ++c)
+    {
+      low[c] = std::min(low[c], target_x[i + c]);
+      high[c] = std::max(high[c], target_x[i + c]);
+      sum += target_x[i + c];
+    }
+  for (const double x : impactor_x)
+    sum += x;
+  if (!std::isfinite(sum))
+    throw NumericalFailure("contact detection: the nodes' positions are not finite");
+  nodes_.clear();
+  for (Index node = 0; node < impactor_.n_nodes(); ++node)
+  {
+    bool inside = true;
+    for (int c = 0; c < dim; ++c)
+    {
+      const double x = impactor_x[static_cast<std::size_t>(node) * dim + c];
+      inside = inside && x >= low[c] - distance_.w && x <= high[c] + distance_.w;
+    }
+    if (inside)
+      nodes_.push_back(node);
+    else
+    {
+      pairing_[node] = Pair{};
+      pairing_[node].reason = NoPairReason::outside_box;
+      candidates_[node].face = -1;
+    }
+  }
+}
+
+const Pairing &SurfaceDetector::detect(std::span<const double> impactor_x, std::span<const double> target_x,
+                                       double reach)
+{
+  AMONTONS_ASSERT(impactor_x.size() == impactor_.reference.size());
+  AMONTONS_ASSERT(target_x.size() == target_.surface().reference.size());
+  timers_ = Timers();
+  target_.move_to(target_x);
+  {
+    const auto time = timers_.measure("bounds");
+    distance_ = search_distance(target_, options_, reach);
+    choose_nodes(impactor_x, target_x);
+  }
+  query_ = {impactor_x, nodes_, distance_.w};
+  {
+    const auto time = timers_.measure("fill");
+    search_->fill(target_, query_);
+  }
+  search_->closest(target_, query_, candidates_, timers_);
+  {
+    const auto time = timers_.measure("projection");
+    for (const Index node : nodes_)
+      pairing_[node] = pair_of(node);
+  }
+  summarise();
+  return pairing_;
+}
+
+// Mean of the impactor's faces at the node, in the current geometry; zero where it has none.
+Vector3d SurfaceDetector::impactor_normal(Index node) const
+{
+  Vector3d normal = Vector3d::Zero();
+  if (impactor_.node_face_offsets.size() == impactor_.node_ids.size() + 1)
+    for (const Index f : impactor_.faces_of_node(node))
+      normal += face_normal(gather_face(impactor_.dim, impactor_.face(f), query_.x), {0.5, 0.5});
+  return normal.normalized();
+}
+
+SurfaceDetector::Verdict SurfaceDetector::judge(const Feature &feature, Index node) const
+{
+  if (feature.pair.kind == PairKind::extension)
+    if (feature.overhang > options_.extension.value_or(default_extension * feature.extent))
+      return Verdict::past_end;
+  if (feature.inside && feature.pair.distance > on_surface * distance_.w &&
+      impactor_normal(node).dot(feature.normal) > same_way)
+    return Verdict::behind;
+  return Verdict::taken;
+}
+
+Pair SurfaceDetector::pair_of(Index node)
+{
+  const Candidate &closest = candidates_[node];
+  if (closest.face < 0)
+  {
+    Pair none;
+    none.reason = NoPairReason::too_far;
+    return none;
+  }
+  const Vector3d x = point_of(query_.x, impactor_.dim, node);
+  const Feature feature = look_at(target_, closest, x);
+  return judge(feature, node) == Verdict::taken ? feature.pair : next_best(node, x);
+}
+
+// The closest point is not one to pair with: the next local minimum of the distance that is. Once a node is seen to
+// have come through a thin body, only points seen from inside count.
+Pair SurfaceDetector::next_best(Index node, const Vector3d &x)
+{
+  considered_.clear();
+  search_->within(target_, query_, node, considered_);
+  std::sort(considered_.begin(), considered_.end(),
+            [this](const Candidate &a, const Candidate &b) { return comes_before(target_.surface(), a, b); });
+  bool came_through = false;
+  Pair none;
+  none.reason = NoPairReason::past_end;
+  for (const Candidate &candidate : considered_)
+  {
+    const Feature feature = look_at(target_, candidate, x);
+    if (!feature.is_minimum)
+      continue;
+    const Verdict verdict = judge(feature, node);
+    came_through = came_through || verdict == Verdict::behind;
+    if (verdict == Verdict::taken && (feature.inside || !came_through))
+      return feature.pair;
+  }
+  if (came_through)
+    none.reason = NoPairReason::behind;
+  return none;
+}
+
+void SurfaceDetector::summarise()
+{
+  DetectionReport &report = report_ = DetectionReport{};
+  report.method = name_of(options_.method);
+  report.distance = distance_.w;
+  report.distance_face = distance_.face;
+  report.seconds = timers_.seconds();
+  std::array<Index, 5> by_kind{}, by_reason{};
+  for (Index node = 0; node < impactor_.n_nodes(); ++node)
+  {
+    const Pair &pair = pairing_[node];
+    ++by_kind[static_cast<std::size_t>(pair.kind)];
+    ++by_reason[static_cast<std::size_t>(pair.reason)];
+    if (pair.kind == PairKind::none || !(pair.gap < 0))
+      continue;
+    ++report.n_penetrations;
+    if (pair.gap < report.deepest)
+    {
+      report.deepest = pair.gap;
+      report.deepest_node = node;
+    }
+  }
+  report.n_pairs = by_reason[0];
+  const std::array<const char *, 5> kinds{"none", "face", "edge", "vertex", "extension"};
+  const std::array<const char *, 5> reasons{"paired", "outside_box", "too_far", "behind", "past_end"};
+  for (std::size_t i = 1; i < 5; ++i)
+  {
+    report.pairs_by_kind[kinds[i]] = by_kind[i];
+    report.unpaired_by_reason[reasons[i]] = by_reason[i];
+  }
+  if (report.deepest_node >= 0)
+  {
+    const Vector3d x = point_of(query_.x, impactor_.dim, report.deepest_node);
+    report.deepest_point = {x.x(), x.y(), x.z()};
+  }
+}
+} // namespace
+
+std::unique_ptr<Detector> make_detector(const DetectionOptions &options, const Surface &impactor, const Surface &target)
+{
+  return std::make_unique<SurfaceDetector>(options, impactor, target);
+}
+} // namespace amontons

@@ -1,0 +1,62 @@
+#pragma once
+#include "amontons/base/timer.h"
+#include "amontons/detection/closest_feature.h"
+#include "amontons/detection/target.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace amontons
+{
+/// The impactor nodes to look for.
+struct Query
+{
+  std::span<const double> x;    ///< all nodes, [n_nodes * dim]
+  std::span<const Index> nodes; ///< the nodes inside the target's box grown by w
+  double w = 0;
+};
+
+/// Finds closest faces: what the detection methods differ in. Buffers stay between calls.
+class Search
+{
+public:
+  virtual ~Search() = default;
+
+  /// Takes in where the target is now.
+  virtual void fill(const Target &target, const Query &query) = 0;
+
+  /// For each node of the query the face with the closest point within w, -1 without; equal distances go to the
+  /// smaller face id.
+  /// @param result [n_nodes], all of the impactor's; on entry what the last detection found, as a hint
+  /// @param timers the phases "nearest" and, where it is a step of its own, "projection"
+  virtual void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) = 0;
+
+  /// Appends every face that the method considers for this node and that comes within w of it, with its closest point.
+  virtual void within(const Target &target, const Query &query, Index node, std::vector<Candidate> &result) = 0;
+};
+
+std::unique_ptr<Search> make_brute_search();
+std::unique_ptr<Search> make_tree_search(int dim);
+std::unique_ptr<Search> make_nearest_node_search();
+
+/// The face's closest point as a candidate.
+inline Candidate candidate_on(const Target &target, Index face, const Eigen::Vector3d &x)
+{
+  const ClosestPoint closest = closest_point(target.face(face), x);
+  return {face, closest.xi, closest.squared_distance};
+}
+
+/// The order of candidates: distance, then the faces' ids. True if a comes before b.
+inline bool comes_before(const Surface &surface, const Candidate &a, const Candidate &b)
+{
+  return a.squared_distance < b.squared_distance ||
+         (a.squared_distance == b.squared_distance && surface.face_ids[a.face] < surface.face_ids[b.face]);
+}
+
+inline Eigen::Vector3d point_of(std::span<const double> x, int dim, Index node)
+{
+  const double *p = x.data() + static_cast<std::ptrdiff_t>(node) * dim;
+  return {p[0], p[1], dim == 3 ? p[2] : 0.0};
+}
+} // namespace amontons
