@@ -20,6 +20,8 @@ public:
   /// @throws UserError if the value is not finite
   [[nodiscard]] double operator()(double time, const std::array<double, 3> &point) const;
 
+  [[nodiscard]] bool depends_on_time() const;
+
 private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
