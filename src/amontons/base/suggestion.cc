@@ -40,7 +40,8 @@ int edit_distance(const std::string &word_a, const std::string &word_b)
 std::string nearest_word(const std::string &word, const std::vector<std::string> &candidates)
 {
   std::string nearest;
-  int least = std::max<int>(1, static_cast<int>(word.size() + 1) / 3) + 1;
+  const int length = static_cast<int>(word.size());
+  int least = std::min(std::max(1, (length + 1) / 3) + 1, length);
   for (const std::string &candidate : candidates)
     if (const int distance = edit_distance(word, candidate); distance < least)
     {
@@ -53,7 +54,7 @@ std::string nearest_word(const std::string &word, const std::vector<std::string>
 std::string did_you_mean(const std::string &word, const std::vector<std::string> &candidates)
 {
   const std::string nearest = nearest_word(word, candidates);
-  return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+  return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
 }
 
 std::string joined(const std::vector<std::string> &words)

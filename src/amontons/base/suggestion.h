@@ -11,7 +11,7 @@ int edit_distance(const std::string &a, const std::string &b);
 /// The candidate that was probably meant; empty where none is near. Ties go to the first.
 std::string nearest_word(const std::string &word, const std::vector<std::string> &candidates);
 
-/// "; did you mean 'x'?" or nothing, to be put into a message.
+/// " (did you mean 'x'?)" or nothing, to be put into a message.
 std::string did_you_mean(const std::string &word, const std::vector<std::string> &candidates);
 
 /// "a, b, c"

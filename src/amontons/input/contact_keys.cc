@@ -1,0 +1,68 @@
+#include "amontons/input/deck_keys.h"
+
+namespace amontons
+{
+namespace
+{
+enum class FrictionLaw
+{
+  none,
+  coulomb
+};
+
+struct FrictionOptions
+{
+  FrictionLaw law = FrictionLaw::coulomb;
+  double coefficient = 0;
+};
+
+Section<FrictionOptions> friction_keys()
+{
+  Section<FrictionOptions> keys;
+  keys.choice("law", &FrictionOptions::law, {{"coulomb", FrictionLaw::coulomb}, {"none", FrictionLaw::none}}, required,
+              "how the surfaces hold each other");
+  keys.number("coefficient", &FrictionOptions::coefficient, not_negative, "1", otherwise("required with coulomb"),
+              "Coulomb's coefficient mu");
+  keys.check(
+      [](const Value &value, FrictionOptions &friction, ReadContext &)
+      {
+        const Value *coefficient = value.find("coefficient");
+        if (friction.law == FrictionLaw::none && coefficient)
+          coefficient->fail("has no meaning with law: none");
+        if (friction.law == FrictionLaw::coulomb && !coefficient)
+          value.fail("the key 'coefficient' is missing (required with law: coulomb)");
+      });
+  return keys;
+}
+} // namespace
+
+Section<ContactOptions> contact_keys()
+{
+  Section<ContactOptions> keys;
+  keys.text("name", &ContactOptions::name, required,
+            "names the outputs of this contact; unique; letters, digits, '-', '_' and '.'");
+  keys.text("impactor", &ContactOptions::impactor, required,
+            "physical group of faces whose nodes are kept from crossing the target");
+  keys.text("target", &ContactOptions::target, required,
+            "physical group of faces, or the name of an analytic rigid body");
+  keys.map<FrictionOptions>(
+      "friction", friction_keys(), otherwise("none: the surfaces slide freely"), "what the surfaces do when they slide",
+      [](ContactOptions &contact, FrictionOptions friction) { contact.friction_coefficient = friction.coefficient; });
+  keys.choice("initial-overlap", &ContactOptions::initial_overlap,
+              {{"resolve", InitialOverlap::resolve}, {"adjust", InitialOverlap::adjust}}, optional,
+              "nodes inside the target before anything moves; resolve: a press-fit, pushed out in the first increment; "
+              "adjust: the gap is measured from there and no stress comes of it");
+  keys.number("augmentation", &ContactOptions::augmentation, positive, "1", optional,
+              "factor on the augmentation parameter, which is found from the bodies' stiffness; the solution does not "
+              "depend on it");
+  keys.check(
+      [](const Value &value, ContactOptions &contact, ReadContext &)
+      {
+        contact.where = value.where;
+        if (contact.impactor == contact.target)
+          value.find("target")->fail("the impactor and the target are the same, '" + contact.target +
+                                     "'; a contact pair has two sides");
+      });
+  return keys;
+}
+} // namespace amontons
