@@ -2,6 +2,8 @@
 
 #include "amontons/surface/projection.h"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <numbers>
 

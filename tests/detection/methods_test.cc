@@ -1,0 +1,175 @@
+#include "amontons/detection/detector.h"
+#include "amontons/surface/projection.h"
+#include "detection/surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+namespace amontons::test
+{
+namespace
+{
+struct Case
+{
+  std::string name;
+  Surface target;
+  double spread; ///< of the impactor nodes about the target
+};
+
+double graded(double s, double ratio)
+{
+  return std::expm1(std::log(ratio) * s) / (ratio - 1);
+}
+
+std::vector<Case> cases_2d()
+{
+  using P = std::array<double, 2>;
+  std::vector<Case> cases;
+  cases.push_back({"wavy", curve(400, [](double s) { return P{-s, 0.05 * std::sin(30 * s)}; }), 0.02});
+  cases.push_back({"graded 1:500", curve(300, [](double s) { return P{-graded(s, 500), 0.1 * s * s}; }), 0.03});
+  cases.push_back({"circle",
+                   curve(
+                       300,
+                       [](double s) {
+                         return P{std::cos(6.283185307179586 * s), -std::sin(6.283185307179586 * s)};
+                       },
+                       true),
+                   0.3});
+  cases.push_back({"folded",
+                   curve(400,
+                         [](double s)
+                         {
+                           const double leg = 10 * s;
+                           return P{std::abs(std::remainder(leg, 2.0)), 0.01 * leg};
+                         }),
+                   0.02});
+  cases.push_back({"thin",
+                   chain(
+                       []
+                       {
+                         std::vector<P> points;
+                         for (int i = 0; i <= 200; ++i)
+                           points.push_back({1 - i / 200.0, 0.002});
+                         for (int i = 0; i <= 150; ++i)
+                           points.push_back({i / 150.0, 0});
+                         return points;
+                       }(),
+                       true),
+                   0.01});
+  cases.push_back({"shuffled", shuffled(cases[0].target, 7), 0.02});
+  return cases;
+}
+
+std::vector<Case> cases_3d(bool triangles)
+{
+  std::vector<Case> cases;
+  const auto wavy = [](double s, double t) { return Point{s, t, 0.05 * std::sin(20 * s) * std::cos(15 * t)}; };
+  cases.push_back({"wavy", sheet(30, 30, triangles, wavy), 0.05});
+  cases.push_back({"graded 1:50",
+                   sheet(30, 30, triangles,
+                         [](double s, double t)
+                         {
+                           const double x = graded(s, 50), y = graded(t, 50);
+                           return Point{x, y, 0.2 * x * y};
+                         }),
+                   0.1});
+  cases.push_back({"aspect 100",
+                   sheet(5, 150, triangles,
+                         [](double s, double t) {
+                           return Point{3 * s, 0.9 * t, 0.05 * std::sin(4 * s + 9 * t)};
+                         }),
+                   0.1});
+  cases.push_back({"torus",
+                   sheet(
+                       36, 24, triangles, [](double s, double t) { return torus(s, t, 1, 0.4); }, true),
+                   0.2});
+  cases.push_back({"thin",
+                   sheet(
+                       36, 24, triangles,
+                       [](double s, double t)
+                       {
+                         Point x = torus(s, t, 1, 0.4);
+                         x[2] *= 0.02;
+                         return x;
+                       },
+                       true),
+                   0.05});
+  cases.push_back({"folded",
+                   sheet(60, 12, triangles,
+                         [](double s, double t) {
+                           return Point{0.5 * std::sin(25 * s), t, 0.5 * s + 0.02 * std::sin(7 * t)};
+                         }),
+                   0.1});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> noise(-0.3 / 30, 0.3 / 30);
+  cases.push_back({"random",
+                   sheet(30, 30, triangles,
+                         [&](double s, double t) {
+                           return Point{s + noise(random), t + noise(random), noise(random)};
+                         }),
+                   0.05});
+  cases.push_back({"shuffled", shuffled(cases[0].target, 11), 0.05});
+  return cases;
+}
+
+struct Comparison
+{
+  int n_paired = 0;
+  int n_wrong = 0;
+  int n_other_face = 0;
+};
+
+// Counts the nodes whose distance to the target differs from the oracle's.
+Comparison compare(const Pairing &pairing, const Pairing &oracle)
+{
+  Comparison result;
+  for (std::size_t i = 0; i < oracle.size(); ++i)
+  {
+    result.n_paired += oracle[i].kind != PairKind::none;
+    if (pairing[i].kind != oracle[i].kind || pairing[i].reason != oracle[i].reason ||
+        (oracle[i].face >= 0 && !(std::abs(pairing[i].distance - oracle[i].distance) <= 1e-14)))
+      ++result.n_wrong;
+    else
+      result.n_other_face += pairing[i].face != oracle[i].face;
+  }
+  return result;
+}
+
+void expect_exact(const Case &c, unsigned seed)
+{
+  const Surface impactor = cloud_about(c.target, 600, c.spread, seed);
+  DetectionOptions options;
+  options.method = DetectionMethod::brute;
+  const auto oracle = make_detector(options, impactor, c.target);
+  options.method = DetectionMethod::exact;
+  const auto exact = make_detector(options, impactor, c.target);
+  const Pairing expected = oracle->detect(impactor.reference, c.target.reference, 0.3 * c.spread);
+  const Comparison result = compare(exact->detect(impactor.reference, c.target.reference, 0.3 * c.spread), expected);
+  EXPECT_GT(result.n_paired, 100) << c.name;
+  EXPECT_EQ(result.n_wrong, 0) << c.name << ", seed " << seed;
+  EXPECT_EQ(result.n_other_face, 0) << c.name << ", seed " << seed;
+}
+
+TEST(ExactDetection, EqualsBruteForceInThePlane)
+{
+  for (const Case &c : cases_2d())
+    for (const unsigned seed : {1U, 2U, 3U})
+      expect_exact(c, seed);
+}
+
+TEST(ExactDetection, EqualsBruteForceOnQuadrilaterals)
+{
+  for (const Case &c : cases_3d(false))
+    for (const unsigned seed : {1U, 2U})
+      expect_exact(c, seed);
+}
+
+TEST(ExactDetection, EqualsBruteForceOnTriangles)
+{
+  for (const Case &c : cases_3d(true))
+    for (const unsigned seed : {1U, 2U})
+      expect_exact(c, seed);
+}
+} // namespace
+} // namespace amontons::test
