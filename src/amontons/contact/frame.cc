@@ -1,7 +1,5 @@
 #include "amontons/contact/frame.h"
 
-#include <Eigen/Geometry>
-
 namespace amontons
 {
 namespace

@@ -1,7 +1,7 @@
 #pragma once
 #include "amontons/base/ids.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 
