@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <gmsh.h>
 #include <numeric>
 #include <set>
@@ -49,24 +50,52 @@ int check_element_type(int type)
                            "'; supported are triangles, quadrilaterals, tetrahedra and hexahedra of degree 1");
 }
 
-/// A .msh 2.2 repeats an element for each physical group it belongs to: the copy of smallest tag stays.
-GmshSession::Elements without_copies(const GmshSession::Elements &all)
+/// A .msh 2 lists an element once for each physical group it belongs to.
+bool repeats_elements(const std::string &file)
 {
-  std::vector<std::size_t> order(all.tags.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all.tags[a] < all.tags[b]; });
-  GmshSession::Elements unique;
+  std::ifstream in(file, std::ios::binary);
+  std::string section, version;
+  in >> section >> version;
+  return section == "$MeshFormat" && version.starts_with("2");
+}
+
+GmshSession::Elements taken_in_order(const GmshSession::Elements &all, const std::vector<std::size_t> &order)
+{
+  GmshSession::Elements result;
+  for (const std::size_t e : order)
+  {
+    result.tags.push_back(all.tags[e]);
+    result.nodes.push_back(all.nodes[e]);
+  }
+  return result;
+}
+
+/// Of elements on the same nodes the one of smallest tag stays.
+/// @param order by tag
+std::vector<std::size_t> without_copies(const GmshSession::Elements &all, const std::vector<std::size_t> &order)
+{
+  std::vector<std::size_t> unique;
   std::set<std::vector<GlobalIndex>> seen;
   for (const std::size_t e : order)
   {
     std::vector<GlobalIndex> key = all.nodes[e];
     std::sort(key.begin(), key.end());
-    if (!seen.insert(std::move(key)).second)
-      continue;
-    unique.tags.push_back(all.tags[e]);
-    unique.nodes.push_back(all.nodes[e]);
+    if (seen.insert(std::move(key)).second)
+      unique.push_back(e);
   }
   return unique;
+}
+
+/// A .msh 2 whose elements share an elementary tag but not their groups would be read wrongly: Gmsh gives all elements
+/// of an entity to all its groups.
+void check_copies(std::size_t n_listed, std::size_t n_unique, int dim, int entity)
+{
+  std::vector<int> groups;
+  gmsh::model::getPhysicalGroupsForEntity(dim, entity, groups);
+  if (n_listed != n_unique * std::max<std::size_t>(groups.size(), 1))
+    throw std::runtime_error("elements of the elementary entity " + std::to_string(entity) + " (dimension " +
+                             std::to_string(dim) + ") belong to different physical groups; give each group its own " +
+                             "elementary tag, or save the mesh as .msh 4.1");
 }
 } // namespace
 
@@ -95,6 +124,7 @@ GmshSession::~GmshSession()
 void GmshSession::open(const std::string &file)
 {
   translated([&] { gmsh::open(file); });
+  repeats_elements_ = repeats_elements(file);
 }
 
 void GmshSession::generate(int dim, int n_refinements)
@@ -153,7 +183,14 @@ GmshSession::Elements GmshSession::elements(int dim, int entity) const
             all.nodes.emplace_back(first, first + static_cast<std::ptrdiff_t>(n));
           }
         }
-        return without_copies(all);
+        std::vector<std::size_t> order(all.tags.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all.tags[a] < all.tags[b]; });
+        if (!repeats_elements_)
+          return taken_in_order(all, order);
+        const std::vector<std::size_t> unique = without_copies(all, order);
+        check_copies(order.size(), unique.size(), dim, entity);
+        return taken_in_order(all, unique);
       });
 }
 

@@ -38,11 +38,15 @@ public:
   void generate(int dim, int n_refinements);
   /// Named groups. @throws also where one name stands for two groups
   [[nodiscard]] std::map<std::string, PhysicalGroup> named_groups() const;
+  /// By increasing tag.
   /// @throws also where an element is not a point, segment, triangle, quadrilateral, tetrahedron or hexahedron of
   /// degree 1
   [[nodiscard]] Elements elements(int dim, int entity) const;
   /// Tag and x, y, z of all nodes, by increasing tag.
   [[nodiscard]] std::vector<std::pair<GlobalIndex, std::array<double, 3>>> nodes() const;
+
+private:
+  bool repeats_elements_ = false; ///< the open file lists an element once per physical group
 };
 
 /// Names that the DefineConstant[...] of a .geo, and of the files it includes, declare.
