@@ -1,3 +1,5 @@
+include(GNUInstallDirs)
+
 # A room of the house: a static library of the sources in its folder.
 #   amontons_room(NAME [ROOMS room...] [PRIVATE lib...] [PUBLIC lib...])
 function(amontons_room name)
@@ -14,7 +16,7 @@ function(amontons_room name)
     set(visibility INTERFACE)
   endif()
   target_include_directories(${target} ${visibility} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
-                             $<INSTALL_INTERFACE:include>)
+                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(${target} ${visibility} cxx_std_20)
   foreach(room ${ROOM_ROOMS})
     target_link_libraries(${target} ${visibility} amontons_${room})
