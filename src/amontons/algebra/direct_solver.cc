@@ -32,26 +32,25 @@ public:
   void set_values(std::span<const double> values) override
   {
     check_petsc(MatSetValuesCOO(matrix_.get(), values.data(), INSERT_VALUES), "values");
-    factorized_ = false;
+  }
+
+  void factorize() override
+  {
+    ++n_factorizations_;
+    check_petsc(KSPSetOperators(ksp_.get(), matrix_.get(), matrix_.get()), "operator");
+    check_petsc(KSPSetUp(ksp_.get()), "factorisation");
+    PC pc = nullptr;
+    PCFailedReason reason = PC_NOERROR;
+    check_petsc(KSPGetPC(ksp_.get(), &pc), "factorisation");
+    check_petsc(PCGetFailedReason(pc, &reason), "factorisation");
+    if (reason != PC_NOERROR)
+      throw NumericalFailure(reason == PC_FACTOR_OUTMEMORY ? "the factorisation ran out of memory"
+                                                           : "the tangent matrix is singular");
   }
 
   void solve(std::span<const double> rhs, std::span<double> solution) override
   {
     copy_in(rhs);
-    if (!factorized_)
-    {
-      ++n_factorizations_;
-      check_petsc(KSPSetOperators(ksp_.get(), matrix_.get(), matrix_.get()), "operator");
-      check_petsc(KSPSetUp(ksp_.get()), "factorisation");
-      PC pc = nullptr;
-      PCFailedReason reason = PC_NOERROR;
-      check_petsc(KSPGetPC(ksp_.get(), &pc), "factorisation");
-      check_petsc(PCGetFailedReason(pc, &reason), "factorisation");
-      if (reason != PC_NOERROR)
-        throw NumericalFailure(reason == PC_FACTOR_OUTMEMORY ? "the factorisation ran out of memory"
-                                                             : "the tangent matrix is singular");
-      factorized_ = true;
-    }
     check_petsc(KSPSolve(ksp_.get(), rhs_.get(), solution_.get()), "solution");
     ++n_iterations_;
     copy_out(solution);
@@ -78,7 +77,6 @@ private:
     check_petsc(PCFactorGetMatrix(pc, &factor), "MUMPS");
     check_petsc(MatMumpsSetIcntl(factor, 14, 50), "MUMPS workspace"); // per cent: pivoting in saddle points fills in
     check_petsc(MatMumpsSetIcntl(factor, 10, 2), "MUMPS refinement");
-    factorized_ = false;
   }
 
   void copy_in(std::span<const double> rhs)
@@ -100,10 +98,12 @@ private:
   MatHandle matrix_;
   VecHandle solution_, rhs_;
   KspHandle ksp_;
-  bool factorized_ = false;
   std::int64_t n_factorizations_ = 0, n_pattern_builds_ = 0, n_iterations_ = 0;
 };
 } // namespace
 
-std::unique_ptr<LinearSolver> make_direct_solver() { return std::make_unique<DirectSolver>(); }
+std::unique_ptr<LinearSolver> make_direct_solver()
+{
+  return std::make_unique<DirectSolver>();
+}
 } // namespace amontons

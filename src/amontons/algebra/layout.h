@@ -24,7 +24,8 @@ public:
     , n_multipliers_(n_multipliers)
     , offsets_(std::move(offsets))
     , terms_(std::move(terms))
-  {}
+  {
+  }
 
   [[nodiscard]] Index n_nodal() const { return static_cast<Index>(offsets_.size()) - 1; }
   [[nodiscard]] Index n_displacement_unknowns() const { return n_displacement_unknowns_; }

@@ -18,7 +18,8 @@ public:
   virtual void set_pattern(Index n, std::span<const Index> rows, std::span<const Index> cols) = 0;
   /// Values in the order of the pattern's entries.
   virtual void set_values(std::span<const double> values) = 0;
-  /// @throws NumericalFailure if the matrix is singular to working precision
+  /// Makes ready for solve() with the present values. @throws NumericalFailure if the matrix is singular
+  virtual void factorize() = 0;
   virtual void solve(std::span<const double> rhs, std::span<double> solution) = 0;
 
   [[nodiscard]] virtual std::int64_t n_factorizations() const = 0;

@@ -19,7 +19,10 @@ AlgebraSession::AlgebraSession()
   check_petsc(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "error handler");
 }
 
-AlgebraSession::~AlgebraSession() { PetscFinalize(); }
+AlgebraSession::~AlgebraSession()
+{
+  PetscFinalize();
+}
 
 int AlgebraSession::n_processes() const
 {

@@ -6,9 +6,9 @@ std::string SourceLocation::text() const
 {
   std::string out = file;
   if (line > 0)
-    out += ":" + std::to_string(line);
+    out.append(":").append(std::to_string(line));
   if (line > 0 && column > 0)
-    out += ":" + std::to_string(column);
+    out.append(":").append(std::to_string(column));
   return out;
 }
 

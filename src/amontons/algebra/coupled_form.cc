@@ -1,0 +1,167 @@
+#include "amontons/algebra/coupled_form.h"
+
+#include <algorithm>
+
+namespace amontons
+{
+CoupledForm::CoupledForm(const Layout &layout, std::span<const SubdomainMatrix> subdomains, LinearSolver &solver)
+  : layout_(layout)
+  , subdomains_(subdomains)
+  , solver_(solver)
+{
+}
+
+/// Calls emit(row unknown, column unknown, factor, value) for every entry of the subdomains, always in the same order.
+template<class Emit>
+void CoupledForm::visit_subdomains(Emit &&emit) const
+{
+  for (const SubdomainMatrix &matrix : subdomains_)
+  {
+    const int n = matrix.n_components;
+    const auto nodal = [&](Index local) { return matrix.nodes[local / n] * n + local % n; };
+    for (Index row = 0; row < matrix.n_rows(); ++row)
+      for (const Term &i : layout_.terms(nodal(row)))
+        for (Index k = matrix.row_ptr[row]; k < matrix.row_ptr[row + 1]; ++k)
+          for (const Term &j : layout_.terms(nodal(matrix.col[k])))
+            emit(i.unknown, j.unknown, i.coefficient * j.coefficient, matrix.values[k]);
+  }
+}
+
+/// Calls emit(row unknown, column unknown, factor, which block, row, column within the block).
+template<class Emit>
+void CoupledForm::visit_constraint(const ConstraintPattern &p, Emit &&emit) const
+{
+  for (int a = 0; a < p.n_nodal; ++a)
+    for (const Term &i : layout_.terms(p.nodal[a]))
+    {
+      for (int b = 0; b < p.n_nodal; ++b)
+        for (const Term &j : layout_.terms(p.nodal[b]))
+          emit(i.unknown, j.unknown, i.coefficient * j.coefficient, 0, a, b);
+      for (int m = 0; m < p.n_multipliers; ++m)
+      {
+        const Index multiplier = layout_.multiplier(p.multipliers[m]);
+        emit(i.unknown, multiplier, i.coefficient, 1, a, m);
+        emit(multiplier, i.unknown, i.coefficient, 2, m, a);
+      }
+    }
+  for (int m = 0; m < p.n_multipliers; ++m)
+    for (int k = 0; k < p.n_multipliers; ++k)
+      emit(layout_.multiplier(p.multipliers[m]), layout_.multiplier(p.multipliers[k]), 1.0, 3, m, k);
+}
+
+void CoupledForm::set_constraints(std::vector<ConstraintPattern> constraints,
+                                  std::vector<std::vector<Index>> dense_blocks)
+{
+  constraints_ = std::move(constraints);
+  dense_blocks_ = std::move(dense_blocks);
+  pattern_built_ = false;
+}
+
+bool CoupledForm::set_held_modes(std::vector<std::vector<double>> modes)
+{
+  if (modes.empty() && modes_.empty())
+    return false;
+  modes_ = std::move(modes);
+  pattern_built_ = false;
+  return true;
+}
+
+void CoupledForm::build_pattern()
+{
+  std::vector<Index> rows, cols;
+  const auto add = [&](Index i, Index j)
+  {
+    rows.push_back(i);
+    cols.push_back(j);
+  };
+  visit_subdomains([&](Index i, Index j, double, double) { add(i, j); });
+  constraint_offsets_.clear();
+  for (const ConstraintPattern &pattern : constraints_)
+  {
+    constraint_offsets_.push_back(rows.size());
+    visit_constraint(pattern, [&](Index i, Index j, double, int, int, int) { add(i, j); });
+  }
+  dense_offsets_.clear();
+  for (const auto &block : dense_blocks_)
+  {
+    dense_offsets_.push_back(rows.size());
+    for (const Index i : block)
+      for (const Index j : block)
+        add(i, j);
+  }
+  const std::size_t mode_offset = rows.size();
+  for (std::size_t m = 0; m < modes_.size(); ++m)
+  {
+    const Index border = layout_.n_unknowns() + static_cast<Index>(m);
+    for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
+      if (modes_[m][i] != 0)
+      {
+        add(i, border);
+        add(border, i);
+      }
+  }
+  values_.assign(rows.size(), 0);
+  std::size_t k = mode_offset;
+  for (const auto &mode : modes_)
+    for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
+      if (mode[i] != 0)
+      {
+        values_[k++] = mode[i];
+        values_[k++] = mode[i];
+      }
+  solver_.set_pattern(layout_.n_unknowns() + static_cast<Index>(modes_.size()), rows, cols);
+  pattern_built_ = true;
+}
+
+bool CoupledForm::prepare()
+{
+  if (pattern_built_)
+    return false;
+  build_pattern();
+  return true;
+}
+
+void CoupledForm::update_subdomains()
+{
+  std::size_t k = 0;
+  visit_subdomains([&](Index, Index, double factor, double value) { values_[k++] = factor * value; });
+}
+
+void CoupledForm::update_constraint(std::size_t constraint, const ConstraintValues &v)
+{
+  std::size_t k = constraint_offsets_[constraint];
+  const std::array<const Eigen::Ref<const Eigen::MatrixXd> *, 4> blocks{
+      &v.stiffness, &v.force_by_multiplier, &v.constraint_by_position, &v.constraint_by_multiplier};
+  visit_constraint(constraints_[constraint], [&](Index, Index, double factor, int block, int i, int j)
+                   { values_[k++] = factor * (*blocks[block])(i, j); });
+}
+
+void CoupledForm::update_dense_block(std::size_t block, const Eigen::MatrixXd &values)
+{
+  std::size_t k = dense_offsets_[block];
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+    for (Eigen::Index j = 0; j < values.cols(); ++j)
+      values_[k++] = values(i, j);
+}
+
+void CoupledForm::factorize()
+{
+  solver_.set_values(values_);
+  solver_.factorize();
+}
+
+void CoupledForm::solve(std::span<const double> rhs, std::span<double> solution)
+{
+  if (modes_.empty())
+  {
+    solver_.solve(rhs, solution);
+    mode_reactions_.clear();
+    return;
+  }
+  std::vector<double> b(rhs.begin(), rhs.end()), x(rhs.size() + modes_.size());
+  b.resize(x.size(), 0.0);
+  solver_.solve(b, x);
+  std::copy_n(x.begin(), solution.size(), solution.begin());
+  mode_reactions_.assign(x.begin() + static_cast<std::ptrdiff_t>(solution.size()), x.end());
+}
+} // namespace amontons

@@ -1,0 +1,73 @@
+#pragma once
+#include "amontons/algebra/coupled_form.h"
+#include "amontons/solution/free_motions.h"
+#include "amontons/solution/model.h"
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace amontons
+{
+/// What the contacts add to a residual.
+struct ContactContribution
+{
+  std::vector<double> force;            ///< F_x, nodal, [n_nodal]
+  std::vector<double> constraint;       ///< F_lambda, [n_multipliers]
+  std::vector<double> prescribed_force; ///< K_c du and B du of the pending prescribed motion:
+  std::vector<double> prescribed_gap;   ///< [n_nodal] and [n_multipliers]
+  std::vector<ContactStatus> status;    ///< all contacts, node by node
+  double constraint_norm2 = 0;          ///< sum (r F_lambda)^2, force^2
+  double force_norm2 = 0;               ///< sum of element forces' squares
+};
+
+/// Writes the contacts' elements into the coupled form and the residual.
+///
+/// Nodes that a support holds, or that are impactors in several contacts, can make constraint rows depend on each other
+/// or on nothing. The rule: at each such node rows are taken in the order of the deck's contacts, normal before
+/// tangential; a row (in 3D, a direction of the tangent plane) whose part on the unknowns depends on the rows already
+/// taken is dropped and its multiplier is zero. So pressures are unique.
+class ContactAssembly
+{
+public:
+  ContactAssembly(Model &model, CoupledForm &form);
+
+  /// To be called whenever a face of some pair changed.
+  void rebuild_pattern();
+
+  /// @param start nodal displacement at the increment's beginning
+  /// @param pending prescribed motion still to come, nodal; may be empty
+  /// @param forced (contact, node) to be taken as closed whatever sigma says
+  ContactContribution evaluate(const State &state, std::span<const double> start, std::span<const double> pending,
+                               std::span<const std::pair<int, Index>> forced = {});
+
+  /// Closed nodes' rows and open nodes of the last evaluation, for FreeMotions.
+  [[nodiscard]] const std::vector<HoldingNode> &holding() const { return holding_; }
+  [[nodiscard]] const std::vector<CandidateNode> &candidates() const { return candidates_; }
+  /// Record them from now on.
+  void record_nodes() { record_nodes_ = true; }
+
+private:
+  struct Work
+  {
+    int contact;
+    Index node;
+    std::size_t block;
+    ContactElement element;
+  };
+  void find_shared_nodes();
+  [[nodiscard]] Work make_element(int c, Index i, std::size_t block, const State &state, std::span<const double> start,
+                                  std::span<const double> pending, bool forced);
+  void drop_dependent_rows(std::span<Work *const> works, const State &state);
+  void add(const Work &work, std::span<const double> pending, ContactContribution &out);
+  void write(std::size_t block, const ContactElement &element);
+
+  Model &model_;
+  CoupledForm &form_;
+  std::vector<std::size_t> first_block_; ///< of each contact
+  std::vector<char> special_;            ///< by node of the mesh: rows may depend on each other
+  std::vector<HoldingNode> holding_;
+  std::vector<CandidateNode> candidates_;
+  bool record_nodes_ = false;
+};
+} // namespace amontons

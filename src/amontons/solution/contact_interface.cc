@@ -1,0 +1,384 @@
+#include "amontons/solution/contact_interface.h"
+
+#include "amontons/bulk/surface_extraction.h"
+#include "amontons/contact/kinematics.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace amontons
+{
+namespace
+{
+/// How far, in local coordinates, a projection may leave its face before the node looks for another.
+constexpr double face_hold = 0.02;
+/// After so many changes of face within an increment a node stays on its face until the increment ends.
+constexpr int max_face_changes = 6;
+/// A gap below this fraction of the local size counts as touching when the run starts.
+constexpr double touching = 1e-9;
+constexpr int max_nodes = 5;
+
+} // namespace
+
+ContactInterface::ContactInterface(const Mesh &mesh, Kinematics kinematics, Strain strain,
+                                   const ContactOptions &options, const DetectionOptions &detection,
+                                   const RigidBody *analytic_target)
+  : mesh_(mesh)
+  , dim_(mesh.dim)
+  , axisymmetric_(kinematics == Kinematics::axisymmetric)
+  , small_(strain == Strain::small)
+  , options_(options)
+{
+  impactor_ = std::make_unique<Surface>(extract_surface(mesh, options.impactor, options.where));
+  areas_ = tributary_areas(*impactor_, axisymmetric_);
+  if (analytic_target)
+  {
+    analytic_ = analytic_target->shape;
+    shape_node_ = analytic_target->nodes.front();
+  }
+  else
+  {
+    target_ = std::make_unique<Surface>(extract_surface(mesh, options.target, options.where));
+    check_not_welded(mesh, *impactor_, *target_, options.impactor, options.target, options.where);
+    detector_ = make_detector(detection, *impactor_, *target_);
+  }
+  const auto n = static_cast<std::size_t>(n_nodes());
+  pairing_.resize(n);
+  augmentation_.assign(n, 1);
+  n_face_changes_.assign(n, 0);
+  slip_origin_.assign(n, Eigen::Vector3d::Zero());
+  has_origin_.assign(n, 0);
+  start_gap_.assign(n, 0);
+  gap_offset_.assign(n, 0);
+  total_slip_.assign(n * (dim_ - 1), 0);
+  old_frame_.resize(n);
+}
+
+DetectionReport ContactInterface::detection_report() const
+{
+  if (detector_)
+    return detector_->report();
+  DetectionReport report;
+  report.method = "analytic";
+  report.n_pairs = n_nodes();
+  report.pairs_by_kind["face"] = n_nodes();
+  return report;
+}
+
+void ContactInterface::set_augmentation(std::span<const double> diagonal)
+{
+  const auto mean = [&](std::span<const Index> nodes)
+  {
+    double sum = 0;
+    int n = 0;
+    for (const Index node : nodes)
+      for (int c = 0; c < dim_; ++c)
+        if (const double k = diagonal[static_cast<std::size_t>(node) * dim_ + c]; k > 0)
+        {
+          sum += k;
+          ++n;
+        }
+    return n > 0 ? sum / n : 0;
+  };
+  double on_target = 0;
+  if (target_)
+  {
+    std::vector<Index> nodes(target_->node_ids.begin(), target_->node_ids.end());
+    on_target = mean(nodes);
+  }
+  for (Index i = 0; i < n_nodes(); ++i)
+  {
+    const auto node = static_cast<Index>(impactor_->node_ids[i]);
+    const double stiffness = mean({&node, 1});
+    const double r = stiffness > 0 ? stiffness : on_target;
+    if (r <= 0)
+      throw UserError(options_.where, "both sides of contact '" + options_.name + "' are rigid; one must deform");
+    augmentation_[i] = options_.augmentation * r;
+  }
+}
+
+int ContactInterface::nodes(Index i, std::array<Index, 5> &out) const
+{
+  int n = 0;
+  out[n++] = static_cast<Index>(impactor_->node_ids[i]);
+  if (analytic_)
+    out[n++] = shape_node_;
+  else if (pairing_[i].face >= 0)
+    for (const Index local : target_->face(pairing_[i].face))
+      out[n++] = static_cast<Index>(target_->node_ids[local]);
+  return n;
+}
+
+void ContactInterface::gather(std::span<const Index> nodes, std::span<const double> displacement,
+                              std::span<double> out) const
+{
+  std::size_t k = 0;
+  for (const Index node : nodes)
+    for (int c = 0; c < dim_; ++c)
+      out[k++] = displacement[static_cast<std::size_t>(node) * dim_ + c];
+}
+
+void ContactInterface::add_reference(std::span<const Index> nodes, std::span<double> out) const
+{
+  std::size_t k = 0;
+  for (const Index node : nodes)
+    for (int c = 0; c < dim_; ++c)
+      out[k++] += node == shape_node_ ? analytic_->point[c] : mesh_.points[static_cast<std::size_t>(node) * dim_ + c];
+}
+
+bool ContactInterface::keeps_face(Index i, const Pair &found, std::span<const double> displacement) const
+{
+  const Pair &old = pairing_[i];
+  if (old.face < 0 || found.face == old.face)
+    return old.face >= 0;
+  if (n_face_changes_[i] >= max_face_changes)
+    return true;
+  const ContactLinearisation now = linearise_with_origin(i, displacement, displacement);
+  const bool triangle = target_->face(old.face).size() == 3;
+  const double a = now.xi[0], b = dim_ == 2 ? 0.5 : now.xi[1];
+  const double low = std::min(a, b), high = triangle ? a + b : std::max(a, b);
+  if (low < -face_hold || high > 1 + face_hold)
+    return false;
+  return std::abs(now.gap) <= found.distance * (1 + 1e-6) || std::abs(now.gap) <= std::abs(found.gap);
+}
+
+bool ContactInterface::detect(std::span<const double> displacement, double reach, bool keep)
+{
+  changed_.clear();
+  if (analytic_)
+    return false;
+  std::vector<double> impactor_x(impactor_->reference), target_x(target_->reference);
+  if (!small_)
+    for (auto [surface, x] : {std::pair{impactor_.get(), &impactor_x}, std::pair{target_.get(), &target_x}})
+      for (Index i = 0; i < surface->n_nodes(); ++i)
+        for (int c = 0; c < dim_; ++c)
+          (*x)[i * dim_ + c] += displacement[static_cast<std::size_t>(surface->node_ids[i]) * dim_ + c];
+
+  const Pairing &found = detector_->detect(impactor_x, target_x, reach);
+  bool changed = false;
+  for (Index i = 0; i < n_nodes(); ++i)
+  {
+    if (found[i].face == pairing_[i].face)
+    {
+      pairing_[i] = found[i];
+      continue;
+    }
+    if (keep && keeps_face(i, found[i], displacement))
+      continue;
+    changed = true;
+    ++n_face_changes_[i];
+    if (pairing_[i].face >= 0 && found[i].face >= 0 && dim_ == 3)
+    {
+      old_frame_[i] = linearise_with_origin(i, displacement, displacement).tangent;
+      changed_.push_back(i);
+    }
+    pairing_[i] = found[i];
+  }
+  return changed;
+}
+
+void ContactInterface::turn_multipliers(std::span<const double> displacement, std::span<double> multipliers)
+{
+  for (const Index i : changed_)
+  {
+    double *lambda = multipliers.data() + multiplier(i) + 1;
+    const Eigen::Vector3d force = lambda[0] * old_frame_[i][0] + lambda[1] * old_frame_[i][1];
+    const double size = force.norm();
+    if (size == 0)
+      continue;
+    const ContactLinearisation now = linearise_with_origin(i, displacement, displacement);
+    const Eigen::Vector3d in_plane = force - force.dot(now.normal) * now.normal;
+    const double factor = in_plane.norm() > 0 ? size / in_plane.norm() : 0;
+    lambda[0] = factor * in_plane.dot(now.tangent[0]);
+    lambda[1] = factor * in_plane.dot(now.tangent[1]);
+  }
+  changed_.clear();
+}
+
+Eigen::Vector3d ContactInterface::relative(Index i, std::span<const double> displacement) const
+{
+  std::array<Index, max_nodes> ids;
+  const int n = nodes(i, ids);
+  std::array<double, max_contact_dofs> u;
+  gather({ids.data(), static_cast<std::size_t>(n)}, displacement, u);
+  const Pair &pair = pairing_[i];
+  std::array<double, 4> weight{1, 0, 0, 0};
+  const double a = pair.xi[0], b = pair.xi[1];
+  if (n == 3)
+    weight = {1 - a, a, 0, 0};
+  else if (n == 4)
+    weight = {1 - a - b, a, b, 0};
+  else if (n == 5)
+    weight = {(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b};
+  Eigen::Vector3d out = Eigen::Vector3d::Zero();
+  for (int c = 0; c < dim_; ++c)
+  {
+    out[c] = u[c];
+    for (int k = 1; k < n; ++k)
+      out[c] -= weight[k - 1] * u[k * dim_ + c];
+  }
+  return out;
+}
+
+void ContactInterface::begin_increment(std::span<const double> start, std::span<const double> multipliers)
+{
+  for (Index i = 0; i < n_nodes(); ++i)
+  {
+    n_face_changes_[i] = 0;
+    has_origin_[i] = 0;
+    if (!paired(i))
+      continue;
+    const auto node = static_cast<Index>(impactor_->node_ids[i]);
+    slip_origin_[i] = Eigen::Vector3d::Zero();
+    if (small_)
+      slip_origin_[i] = relative(i, start);
+    else
+    {
+      gather({&node, 1}, start, {slip_origin_[i].data(), 3});
+      add_reference({&node, 1}, {slip_origin_[i].data(), 3});
+    }
+    const double gap = linearise_with_origin(i, start, start).gap;
+    start_gap_[i] = gap;
+    const double size = std::pow(areas_[i], 1.0 / (dim_ - 1));
+    has_origin_[i] = multipliers[multiplier(i)] < 0 || gap <= touching * size;
+  }
+}
+
+ContactLinearisation ContactInterface::linearise_with_origin(Index i, std::span<const double> displacement,
+                                                             std::span<const double> start) const
+{
+  std::array<Index, max_nodes> ids;
+  const auto n = static_cast<std::size_t>(nodes(i, ids));
+  const std::size_t size = n * dim_, rest = size - dim_;
+  const std::span<const Index> all{ids.data(), n};
+  std::array<double, max_contact_dofs> now, then;
+  const std::span<const double> origin{slip_origin_[i].data(), static_cast<std::size_t>(dim_)};
+  const auto d = static_cast<std::size_t>(dim_);
+
+  ContactLinearisation out;
+  if (small_)
+  {
+    std::fill_n(then.begin(), size, 0.0);
+    add_reference(all, then);
+    gather(all, displacement, now);
+    out = analytic_
+              ? linearise_shape_small(dim_, axisymmetric_, *analytic_, {then.data(), d}, {now.data(), size}, origin)
+              : linearise_small(dim_, {then.data(), d}, {then.data() + d, rest}, {now.data(), size}, origin,
+                                pairing_[i].xi);
+  }
+  else
+  {
+    gather(all, displacement, now);
+    add_reference(all, now);
+    gather(all, start, then);
+    add_reference(all, then);
+    out = analytic_ ? linearise_shape(dim_, axisymmetric_, *analytic_, {now.data(), d}, {now.data() + d, d}, origin,
+                                      {then.data() + d, d})
+                    : linearise_finite(dim_, {now.data(), d}, {now.data() + d, rest}, origin, {then.data() + d, rest},
+                                       pairing_[i].xi);
+  }
+  out.gap -= gap_offset_[i];
+  return out;
+}
+
+void ContactInterface::find_closing_origin(Index i, const ContactLinearisation &now,
+                                           std::span<const double> displacement, std::span<const double> start)
+{
+  has_origin_[i] = 1;
+  const double drop = start_gap_[i] - now.gap;
+  const double share = drop > 0 ? std::clamp(start_gap_[i] / drop, 0.0, 1.0) : 0;
+  if (small_)
+  {
+    slip_origin_[i] += share * (relative(i, displacement) - slip_origin_[i]);
+    return;
+  }
+  std::array<Index, max_nodes> ids;
+  const auto n = static_cast<std::size_t>(nodes(i, ids));
+  const auto d = static_cast<std::size_t>(dim_);
+  std::array<double, max_contact_dofs> x{}, x_start{};
+  gather({ids.data(), n}, displacement, x);
+  add_reference({ids.data(), n}, x);
+  gather({ids.data(), n}, start, x_start);
+  add_reference({ids.data(), n}, x_start);
+  if (!analytic_)
+  {
+    slip_origin_[i] = closing_origin_finite(dim_, {x.data(), d}, {x.data() + d, (n - 1) * d}, {x_start.data(), d},
+                                            {x_start.data() + d, (n - 1) * d}, pairing_[i].xi);
+    return;
+  }
+  for (std::size_t c = 0; c < d; ++c)
+    slip_origin_[i][c] = x_start[c] + share * ((x[c] - x[d + c]) - (x_start[c] - x_start[d + c]));
+}
+
+ContactLinearisation ContactInterface::linearise(Index i, std::span<const double> displacement,
+                                                 std::span<const double> start)
+{
+  const ContactLinearisation now = linearise_with_origin(i, displacement, start);
+  if (has_origin_[i] || now.gap > 0)
+    return now;
+  find_closing_origin(i, now, displacement, start);
+  return linearise_with_origin(i, displacement, start);
+}
+
+void ContactInterface::adjust_initial_overlap(std::span<const double> displacement)
+{
+  for (Index i = 0; i < n_nodes(); ++i)
+    if (paired(i))
+      gap_offset_[i] = std::min(0.0, linearise_with_origin(i, displacement, displacement).gap);
+}
+
+ContactResult ContactInterface::result(std::span<const double> displacement, std::span<const double> start,
+                                       std::span<const double> multipliers)
+{
+  ContactResult out;
+  const int n_tangents = dim_ - 1;
+  const auto n = static_cast<std::size_t>(n_nodes());
+  out.name = options_.name;
+  out.impactor = impactor_.get();
+  out.dim = dim_;
+  out.gap.assign(n, std::numeric_limits<double>::infinity());
+  out.pressure.assign(n, 0);
+  out.traction.assign(n * n_tangents, 0);
+  out.slip.assign(n * n_tangents, 0);
+  out.status.assign(n, ContactStatus::open);
+  out.force.assign(n * dim_, 0);
+  out.area = areas_;
+  out.min_gap = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < n_nodes(); ++i)
+  {
+    if (!paired(i))
+      continue;
+    const ContactLinearisation now = linearise(i, displacement, start);
+    const double *lambda = multipliers.data() + multiplier(i);
+    Multipliers m{lambda[0], {lambda[1], n_tangents > 1 ? lambda[2] : 0}};
+    out.gap[i] = now.gap;
+    out.min_gap = std::min(out.min_gap, now.gap);
+    out.status[i] = contact_status(now, m, options_.friction_coefficient, augmentation_[i]);
+    if (out.status[i] == ContactStatus::open)
+      continue;
+    ++out.n_active;
+    ++(out.status[i] == ContactStatus::stick ? out.n_stick : out.n_slip);
+    out.pressure[i] = -m.normal / areas_[i];
+    out.max_pressure = std::max(out.max_pressure, out.pressure[i]);
+    out.contact_area += areas_[i];
+    const ContactVector normal_force = -m.normal * now.gap_gradient;
+    for (int c = 0; c < dim_; ++c)
+      out.normal_force[c] += normal_force[c];
+    ContactVector tangential_force = ContactVector::Zero(now.n_dofs());
+    for (int a = 0; a < n_tangents; ++a)
+    {
+      tangential_force -= m.tangential[a] * now.slip_direction[a];
+      out.traction[i * n_tangents + a] = -m.tangential[a] / areas_[i];
+      out.slip[i * n_tangents + a] = total_slip_[i * n_tangents + a] + now.slip[a];
+    }
+    for (int c = 0; c < dim_; ++c)
+    {
+      out.tangential_force[c] += tangential_force[c];
+      out.force[i * dim_ + c] = normal_force[c] + tangential_force[c];
+    }
+  }
+  return out;
+}
+} // namespace amontons

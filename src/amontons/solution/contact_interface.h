@@ -1,0 +1,102 @@
+#pragma once
+#include "amontons/bulk/mesh.h"
+#include "amontons/bulk/rigid_bodies.h"
+#include "amontons/contact/element.h"
+#include "amontons/contact/options.h"
+#include "amontons/detection/detector.h"
+#include "amontons/solution/results.h"
+#include "amontons/surface/shape.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace amontons
+{
+/// One contact of the deck: its surfaces, its pairing and the history of its nodes.
+///
+/// Displacements are nodal vectors [n_nodal] as in State; `start` is the one at the beginning of the increment.
+class ContactInterface
+{
+public:
+  ContactInterface(const Mesh &mesh, Kinematics kinematics, Strain strain, const ContactOptions &options,
+                   const DetectionOptions &detection, const RigidBody *analytic_target);
+
+  [[nodiscard]] const ContactOptions &options() const { return options_; }
+  [[nodiscard]] const Surface &impactor() const { return *impactor_; }
+  [[nodiscard]] const Surface *target() const { return target_.get(); } ///< null for an analytic target
+  [[nodiscard]] Index n_nodes() const { return impactor_->n_nodes(); }
+  [[nodiscard]] std::span<const double> areas() const { return areas_; }
+  [[nodiscard]] double augmentation(Index i) const { return augmentation_[i]; }
+  [[nodiscard]] bool paired(Index i) const { return analytic_ || pairing_[i].face >= 0; }
+  [[nodiscard]] std::span<const Pair> pairing() const { return pairing_; }
+  [[nodiscard]] DetectionReport detection_report() const;
+
+  /// r from the stiffness of the bodies: mean of the diagonal at the impactor node, or on the target where the impactor
+  /// is rigid. @param diagonal [n_nodal], zero on rigid nodes
+  void set_augmentation(std::span<const double> diagonal);
+
+  /// Nodes of element i: the impactor node, then the face's (or the shape's point). @return their number, at most 5
+  int nodes(Index i, std::array<Index, 5> &nodes) const;
+
+  /// Takes the overlap in this configuration as zero gap (InitialOverlap::adjust).
+  void adjust_initial_overlap(std::span<const double> displacement);
+
+  /// Detects in the given configuration. In small strain only the reference counts.
+  /// @param keep hold on to the present face where the projection has hardly left it (within an increment)
+  /// @return whether the face of any node changed
+  bool detect(std::span<const double> displacement, double reach, bool keep);
+
+  /// Takes note of the state at an increment's beginning: from where slip counts.
+  void begin_increment(std::span<const double> start, std::span<const double> multipliers);
+
+  /// Gap and slip of node i. Where the node was open at the beginning and is closed now for the first time, the slip's
+  /// origin is the point where its gap vanished on the way (THEORY: the instant of closing).
+  ContactLinearisation linearise(Index i, std::span<const double> displacement, std::span<const double> start);
+
+  /// Turns the tangential multipliers of nodes whose face detect() changed into the frame of their new face.
+  void turn_multipliers(std::span<const double> displacement, std::span<double> multipliers);
+
+  /// Everything known at a converged state; also the source of what commit() remembers.
+  [[nodiscard]] ContactResult result(std::span<const double> displacement, std::span<const double> start,
+                                     std::span<const double> multipliers);
+  /// Adds the increment's slip to the totals.
+  void commit(const ContactResult &result) { total_slip_ = result.slip; }
+
+  /// First multiplier of node i in State::multipliers.
+  [[nodiscard]] Index multiplier(Index i) const { return first_multiplier_ + i * dim_; }
+  void set_first_multiplier(Index first) { first_multiplier_ = first; }
+
+private:
+  [[nodiscard]] ContactLinearisation linearise_with_origin(Index i, std::span<const double> displacement,
+                                                           std::span<const double> start) const;
+  void find_closing_origin(Index i, const ContactLinearisation &now, std::span<const double> displacement,
+                           std::span<const double> start);
+  void gather(std::span<const Index> nodes, std::span<const double> displacement, std::span<double> out) const;
+  void add_reference(std::span<const Index> nodes, std::span<double> out) const;
+  [[nodiscard]] Eigen::Vector3d relative(Index i, std::span<const double> displacement) const;
+  [[nodiscard]] bool keeps_face(Index i, const Pair &found, std::span<const double> displacement) const;
+
+  const Mesh &mesh_;
+  int dim_;
+  bool axisymmetric_;
+  bool small_;
+  ContactOptions options_;
+  std::unique_ptr<Surface> impactor_, target_;
+  std::optional<Shape> analytic_;
+  Index shape_node_ = -1;
+  std::vector<double> areas_, augmentation_;
+  std::unique_ptr<Detector> detector_;
+  Pairing pairing_;
+  std::vector<int> n_face_changes_; ///< within the increment
+  std::vector<Eigen::Vector3d> slip_origin_;
+  std::vector<char> has_origin_;
+  std::vector<double> start_gap_;
+  std::vector<double> gap_offset_;                                   ///< initial overlap that is taken as zero
+  std::vector<double> total_slip_;                                   ///< [n * (dim-1)]
+  std::vector<std::array<Eigen::Vector3d, max_tangents>> old_frame_; ///< of nodes whose face changed
+  std::vector<Index> changed_;
+  Index first_multiplier_ = 0;
+};
+} // namespace amontons

@@ -1,0 +1,334 @@
+#include "amontons/solution/free_motions.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace amontons
+{
+namespace
+{
+/// Eigenvalues of the restraints' Gram matrix below this share of the largest belong to free motions.
+constexpr double free_share = 1e-11;
+constexpr double load_share = 1e-10;
+
+Eigen::MatrixXd null_space(const Eigen::MatrixXd &gram)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  const double limit = free_share * std::max(eigen.eigenvalues().maxCoeff(), 1.0);
+  Eigen::Index n = 0;
+  while (n < gram.rows() && eigen.eigenvalues()[n] < limit)
+    ++n;
+  return eigen.eigenvectors().leftCols(n);
+}
+
+int find_root(std::vector<int> &parent, int i)
+{
+  while (parent[i] != i)
+    i = parent[i] = parent[parent[i]];
+  return i;
+}
+} // namespace
+
+FreeMotions::FreeMotions(const Model &model)
+  : model_(model)
+{
+  find_parts();
+  make_modes();
+  support_gram_ =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(modes_.size()), static_cast<Eigen::Index>(modes_.size()));
+  if (modes_.empty())
+    return;
+  add_supports(support_gram_);
+  any_ = null_space(support_gram_).cols() > 0;
+}
+
+void FreeMotions::find_parts()
+{
+  const Mesh &mesh = model_.mesh();
+  const auto n = model_.rigid_of_node().size();
+  std::vector<int> parent(n);
+  std::iota(parent.begin(), parent.end(), 0);
+  std::vector<int> body_of_node(n, -1);
+  const auto body_of_cell = model_.bodies().body_of_cell();
+  for (Index cell = 0; cell < mesh.cells.size(); ++cell)
+  {
+    const int body = body_of_cell[cell];
+    if (body < 0 || model_.options().bodies[body].material.law == MaterialLaw::rigid)
+      continue;
+    for (const Index node : mesh.cells[cell])
+    {
+      parent[find_root(parent, node)] = find_root(parent, mesh.cells[cell][0]);
+      body_of_node[node] = body;
+    }
+  }
+  const auto rigid = model_.rigid().bodies();
+  for (const RigidBody &body : rigid)
+  {
+    const auto is_free = [](const RigidComponent &c) { return c.kind == RigidComponent::Kind::free; };
+    if (std::none_of(body.translation.begin(), body.translation.end(), is_free) &&
+        std::none_of(body.rotation.begin(), body.rotation.end(), is_free))
+      continue;
+    for (const Index node : body.nodes)
+    {
+      parent[find_root(parent, node)] = find_root(parent, body.nodes[0]);
+      body_of_node[node] = body.option;
+    }
+  }
+  part_of_node_.assign(n, -1);
+  std::vector<int> part_of_root(n, -1);
+  std::vector<Eigen::Vector3d> low, high;
+  for (std::size_t node = 0; node < n; ++node)
+  {
+    if (body_of_node[node] < 0)
+      continue;
+    int &part = part_of_root[find_root(parent, static_cast<int>(node))];
+    const Eigen::Vector3d x = model_.reference(static_cast<Index>(node));
+    if (part < 0)
+    {
+      part = static_cast<int>(body_of_part_.size());
+      body_of_part_.push_back(body_of_node[node]);
+      low.push_back(x);
+      high.push_back(x);
+    }
+    part_of_node_[node] = part;
+    low[part] = low[part].cwiseMin(x);
+    high[part] = high[part].cwiseMax(x);
+  }
+  for (std::size_t p = 0; p < low.size(); ++p)
+  {
+    center_.push_back(0.5 * (low[p] + high[p]));
+    size_.push_back(std::max((high[p] - low[p]).norm(), 1e-300));
+  }
+}
+
+void FreeMotions::make_modes()
+{
+  const int dim = model_.dim();
+  const bool axisymmetric = model_.options().mesh.kinematics == Kinematics::axisymmetric;
+  for (int part = 0; part < static_cast<int>(body_of_part_.size()); ++part)
+  {
+    const int rigid = model_.rigid().of_option(body_of_part_[part]);
+    const auto moves = [&](bool rotation, int axis)
+    {
+      if (rigid < 0)
+        return true;
+      const RigidBody &body = model_.rigid().bodies()[rigid];
+      return (rotation ? body.rotation : body.translation)[axis].kind == RigidComponent::Kind::free;
+    };
+    for (int axis = axisymmetric ? 1 : 0; axis < dim; ++axis)
+      if (moves(false, axis))
+        modes_.push_back({part, axis, false});
+    if (axisymmetric)
+      continue;
+    for (int axis = dim == 2 ? 2 : 0; axis < 3; ++axis)
+      if (moves(true, axis))
+        modes_.push_back({part, axis, true});
+  }
+}
+
+Eigen::Vector3d FreeMotions::place(const State &state, Index node) const
+{
+  Eigen::Vector3d x = model_.reference(node);
+  if (!model_.small_strain())
+    for (int c = 0; c < model_.dim(); ++c)
+      x[c] += state.displacement[static_cast<std::size_t>(node) * model_.dim() + c];
+  return x;
+}
+
+Eigen::Vector3d FreeMotions::velocity(const Mode &mode, Index node, const Eigen::Vector3d &at) const
+{
+  if (part_of_node_[node] != mode.component)
+    return Eigen::Vector3d::Zero();
+  if (!mode.rotation)
+    return Eigen::Vector3d::Unit(mode.axis);
+  const int rigid = model_.rigid_of_node()[node];
+  const Eigen::Vector3d pivot = rigid >= 0 ? model_.rigid().bodies()[rigid].point : center_[mode.component];
+  return Eigen::Vector3d::Unit(mode.axis).cross(at - pivot) / size_[mode.component];
+}
+
+Eigen::VectorXd FreeMotions::over_modes(const State &state, int contact, Index node, const ContactVector &row) const
+{
+  const int dim = model_.dim();
+  std::array<Index, 5> nodes;
+  const int n = model_.contacts()[contact].nodes(node, nodes);
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(modes_.size()));
+  for (int k = 0; k < n; ++k)
+  {
+    const Eigen::Vector3d at = place(state, nodes[k]);
+    for (std::size_t m = 0; m < modes_.size(); ++m)
+    {
+      const Eigen::Vector3d v = velocity(modes_[m], nodes[k], at);
+      for (int c = 0; c < dim; ++c)
+        out[static_cast<Eigen::Index>(m)] += row[k * dim + c] * v[c];
+    }
+  }
+  return out;
+}
+
+void FreeMotions::add_supports(Eigen::MatrixXd &gram) const
+{
+  const int dim = model_.dim();
+  const auto hold = [&](Index node, int component)
+  {
+    Eigen::VectorXd row(gram.rows());
+    for (Eigen::Index m = 0; m < row.size(); ++m)
+      row[m] = velocity(modes_[m], node, model_.reference(node))[component];
+    gram += row * row.transpose();
+  };
+  for (const HeldComponent &held : model_.supports().held())
+    hold(held.nodal / dim, held.nodal % dim);
+  // Nodes shared with a rigid body that does not move.
+  const auto &rigid_of_node = model_.rigid_of_node();
+  for (Index node = 0; node < model_.mesh().n_nodes(); ++node)
+    if (const int b = rigid_of_node[node];
+        b >= 0 && part_of_node_[node] >= 0 && body_of_part_[part_of_node_[node]] != model_.rigid().bodies()[b].option)
+      for (int c = 0; c < dim; ++c)
+        hold(node, c);
+  for (const BoundaryOptions &entry : model_.options().boundary)
+    if (!entry.spring.empty() && !model_.rigid().concerns(entry))
+      for (const Index node : boundary_group(model_.mesh(), model_.options().bodies, entry).entities.nodes)
+        for (const auto &spring : entry.spring)
+          hold(node, spring.first);
+}
+
+void FreeMotions::check_restrained() const
+{
+  if (!any_)
+    return;
+  Eigen::MatrixXd gram = support_gram_;
+  for (const ContactInterface &contact : model_.contacts())
+  {
+    // Whichever face a node will meet: it sticks to the target as to one body.
+    const Index target_node = contact.target() ? static_cast<Index>(contact.target()->node_ids.front()) : -1;
+    for (const GlobalIndex id : contact.impactor().node_ids)
+    {
+      const auto node = static_cast<Index>(id);
+      const Eigen::Vector3d at = model_.reference(node);
+      for (int c = 0; c < model_.dim(); ++c)
+      {
+        Eigen::VectorXd row(gram.rows());
+        for (Eigen::Index m = 0; m < row.size(); ++m)
+        {
+          row[m] = velocity(modes_[m], node, at)[c];
+          if (target_node >= 0)
+            row[m] -= velocity(modes_[m], target_node, at)[c];
+        }
+        gram += row * row.transpose();
+      }
+    }
+  }
+  const Eigen::MatrixXd free = null_space(gram);
+  if (free.cols() == 0)
+    return;
+  Eigen::Index mode = 0;
+  free.col(0).cwiseAbs().maxCoeff(&mode);
+  const BodyOptions &body = model_.options().bodies[body_of_part_[modes_[mode].component]];
+  throw UserError(body.where, "body '" + body.name + "' can move freely (" + describe(free.col(0)) +
+                                  "): neither a support nor any of its contacts holds it");
+}
+
+std::string FreeMotions::describe(const Eigen::VectorXd &motion) const
+{
+  Eigen::Index m = 0;
+  motion.cwiseAbs().maxCoeff(&m);
+  return std::string(modes_[m].rotation ? "rotation about " : "translation along ") + "xyz"[modes_[m].axis];
+}
+
+FreeMotions::Decision FreeMotions::decide(const State &state, std::span<const HoldingNode> holding,
+                                          std::vector<CandidateNode> candidates, std::span<const double> residual,
+                                          double time, double force_scale) const
+{
+  Decision decision;
+  const int dim = model_.dim();
+  const auto n_modes = static_cast<Eigen::Index>(modes_.size());
+  Eigen::MatrixXd gram = support_gram_;
+  const auto hold = [&](int contact, Index node, const ContactVector &row)
+  {
+    const Eigen::VectorXd r = over_modes(state, contact, node, row);
+    gram += r * r.transpose();
+  };
+  for (const HoldingNode &node : holding)
+    hold(node.contact, node.node, node.row);
+
+  // Load along each mode, rigid bodies' own forces included by the caller's residual.
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(n_modes);
+  for (Index node = 0; node < static_cast<Index>(part_of_node_.size()); ++node)
+    if (part_of_node_[node] >= 0)
+      for (Eigen::Index m = 0; m < n_modes; ++m)
+      {
+        const Eigen::Vector3d v = velocity(modes_[m], node, place(state, node));
+        for (int c = 0; c < dim; ++c)
+          load[m] -= residual[static_cast<std::size_t>(node) * dim + c] * v[c];
+      }
+  std::vector<double> rigid_forces(static_cast<std::size_t>(model_.rigid().n_unknowns()), 0.0);
+  model_.rigid().add_forces(time, rigid_forces);
+  for (Eigen::Index m = 0; m < n_modes; ++m)
+    if (const int b = model_.rigid().of_option(body_of_part_[modes_[m].component]); b >= 0)
+    {
+      const RigidBody &body = model_.rigid().bodies()[b];
+      const Index unknown = (modes_[m].rotation ? body.rotation : body.translation)[modes_[m].axis].unknown;
+      load[m] += rigid_forces[unknown] / (modes_[m].rotation ? size_[modes_[m].component] : 1);
+    }
+
+  while (true)
+  {
+    const Eigen::MatrixXd free = null_space(gram);
+    if (free.cols() == 0)
+      return decision;
+    const Eigen::VectorXd motion = free * (free.transpose() * load);
+    if (motion.norm() <= load_share * force_scale || force_scale == 0)
+    {
+      for (Eigen::Index k = 0; k < free.cols(); ++k)
+        decision.held_modes.push_back(over_unknowns(state, free.col(k)));
+      return decision;
+    }
+    double soonest = std::numeric_limits<double>::infinity();
+    std::size_t chosen = candidates.size();
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+    {
+      const double rate = over_modes(state, candidates[k].contact, candidates[k].node, candidates[k].gap_gradient)
+                              .dot(motion / motion.norm());
+      if (rate >= -1e-6)
+        continue;
+      const double way = candidates[k].gap / -rate;
+      if (way < soonest)
+      {
+        soonest = way;
+        chosen = k;
+      }
+    }
+    if (chosen == candidates.size())
+    {
+      Eigen::Index m = 0;
+      motion.cwiseAbs().maxCoeff(&m);
+      throw NumericalFailure("body '" + model_.options().bodies[body_of_part_[modes_[m].component]].name +
+                             "' moves freely (" + describe(motion) +
+                             "): neither a support nor a contact holds the load of " + std::to_string(motion.norm()));
+    }
+    hold(candidates[chosen].contact, candidates[chosen].node, candidates[chosen].gap_gradient);
+    decision.closed.emplace_back(candidates[chosen].contact, candidates[chosen].node);
+    candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(chosen));
+  }
+}
+
+std::vector<double> FreeMotions::over_unknowns(const State &state, const Eigen::VectorXd &motion) const
+{
+  std::vector<double> nodal(static_cast<std::size_t>(model_.n_nodal()), 0.0);
+  for (Index node = 0; node < static_cast<Index>(part_of_node_.size()); ++node)
+    if (part_of_node_[node] >= 0)
+    {
+      Eigen::Vector3d v = Eigen::Vector3d::Zero();
+      for (std::size_t m = 0; m < modes_.size(); ++m)
+        v += motion[static_cast<Eigen::Index>(m)] * velocity(modes_[m], node, place(state, node));
+      for (int c = 0; c < model_.dim(); ++c)
+        nodal[static_cast<std::size_t>(node) * model_.dim() + c] = std::abs(v[c]) > 1e-12 ? v[c] : 0;
+    }
+  std::vector<double> out(static_cast<std::size_t>(model_.layout().n_displacement_unknowns()), 0.0);
+  model_.layout().gather(nodal, out);
+  return out;
+}
+} // namespace amontons

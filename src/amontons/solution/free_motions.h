@@ -1,0 +1,86 @@
+#pragma once
+#include "amontons/solution/model.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace amontons
+{
+/// A contact node that holds motions back: its gap row and, where it sticks, its slip rows, over element dofs.
+struct HoldingNode
+{
+  int contact;
+  Index node;
+  ContactVector row;
+};
+
+/// An open node that could stop a motion.
+struct CandidateNode
+{
+  int contact;
+  Index node;
+  double gap; ///< with what the prescribed motion will do to it, length
+  ContactVector gap_gradient;
+};
+
+/// Rigid motions that supports and closed contacts leave to the bodies.
+///
+/// Where contact alone holds a body, the tangent is singular while nothing touches. The rule for the first touch: along
+/// a motion that carries load, the open pair that the load would close first is taken as closed for one iteration; so
+/// the body moves until it touches, exactly. A motion without load is held in the mean (sum_i mode_i du_i = 0), which
+/// costs no force. A loaded motion that no pair can stop is a failure named after its body.
+class FreeMotions
+{
+public:
+  explicit FreeMotions(const Model &model);
+
+  /// Could any body move without its contacts? If not, nothing of this class is needed.
+  [[nodiscard]] bool any() const { return any_; }
+
+  /// @throws UserError for a body that would move freely even if all its contacts stuck
+  void check_restrained() const;
+
+  struct Decision
+  {
+    std::vector<std::pair<int, Index>> closed;   ///< (contact, node) to take as closed in this iteration
+    std::vector<std::vector<double>> held_modes; ///< over the displacement unknowns
+  };
+  /// @param residual nodal residual (internal - external + contact), [n_nodal], without the rigid bodies' own forces,
+  ///        which are taken at `time`
+  /// @param force_scale forces below 1e-10 of it are none
+  /// @throws NumericalFailure: a load that nothing can hold
+  [[nodiscard]] Decision decide(const State &state, std::span<const HoldingNode> holding,
+                                std::vector<CandidateNode> candidates, std::span<const double> residual, double time,
+                                double force_scale) const;
+
+private:
+  struct Mode
+  {
+    int component; ///< connected part
+    int axis;      ///< direction, or axis of rotation
+    bool rotation;
+  };
+  void find_parts();
+  void make_modes();
+  /// Velocity of a node in a mode, per unit of the mode (rotations scaled to length by the part's size).
+  [[nodiscard]] Eigen::Vector3d velocity(const Mode &mode, Index node, const Eigen::Vector3d &place) const;
+  [[nodiscard]] Eigen::Vector3d place(const State &state, Index node) const;
+  /// Row of a contact element over the modes.
+  [[nodiscard]] Eigen::VectorXd over_modes(const State &state, int contact, Index node, const ContactVector &row) const;
+  void add_supports(Eigen::MatrixXd &gram) const;
+  [[nodiscard]] std::vector<double> over_unknowns(const State &state, const Eigen::VectorXd &motion) const;
+  [[nodiscard]] std::string describe(const Eigen::VectorXd &motion) const;
+
+  const Model &model_;
+  std::vector<int> part_of_node_; ///< connected part, -1: cannot move (held rigid bodies, unused nodes)
+  std::vector<int> body_of_part_; ///< position in the deck's bodies
+  std::vector<Eigen::Vector3d> center_;
+  std::vector<double> size_;
+  std::vector<Mode> modes_;
+  Eigen::MatrixXd support_gram_;
+  bool any_ = false;
+};
+} // namespace amontons

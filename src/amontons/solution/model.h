@@ -1,0 +1,72 @@
+#pragma once
+#include "amontons/algebra/layout.h"
+#include "amontons/bulk/assembly.h"
+#include "amontons/bulk/mesh.h"
+#include "amontons/bulk/rigid_bodies.h"
+#include "amontons/bulk/supports.h"
+#include "amontons/solution/contact_interface.h"
+#include "amontons/solution/options.h"
+#include "amontons/solution/state.h"
+
+#include <memory>
+#include <vector>
+
+namespace amontons
+{
+/// The problem built: mesh, bodies, supports, contacts and the numbering of unknowns.
+class Model
+{
+public:
+  /// @throws UserError for everything that only the mesh can tell is wrong
+  explicit Model(const ProblemOptions &options);
+
+  [[nodiscard]] const ProblemOptions &options() const { return options_; }
+  [[nodiscard]] const Mesh &mesh() const { return mesh_; }
+  [[nodiscard]] int dim() const { return mesh_.dim; }
+  [[nodiscard]] bool small_strain() const { return options_.strain == Strain::small; }
+  [[nodiscard]] const RigidBodies &rigid() const { return *rigid_; }
+  [[nodiscard]] const Supports &supports() const { return *supports_; }
+  [[nodiscard]] BodyAssembly &bodies() { return *bodies_; }
+  [[nodiscard]] const BodyAssembly &bodies() const { return *bodies_; }
+  [[nodiscard]] std::vector<ContactInterface> &contacts() { return contacts_; }
+  [[nodiscard]] const std::vector<ContactInterface> &contacts() const { return contacts_; }
+  [[nodiscard]] const Layout &layout() const { return layout_; }
+
+  [[nodiscard]] Index n_nodal() const { return (mesh_.n_nodes() + rigid_->n_extra_nodes()) * mesh_.dim; }
+  /// Part of a nodal vector that belongs to the mesh.
+  template<class Vector>
+  [[nodiscard]] auto mesh_part(Vector &nodal) const
+  {
+    return std::span(nodal).first(static_cast<std::size_t>(mesh_.n_nodes()) * mesh_.dim);
+  }
+  /// Rigid body of each nodal position, -1 for none. [n_nodes + n_extra_nodes]
+  [[nodiscard]] const std::vector<int> &rigid_of_node() const { return rigid_of_node_; }
+  /// Reference place of a node, extra nodes included.
+  [[nodiscard]] Eigen::Vector3d reference(Index node) const;
+
+  [[nodiscard]] State initial_state() const;
+  /// The state with its prescribed displacements moved to their values at `time` by the fraction `share` of the way.
+  [[nodiscard]] State prescribe(State state, double time, double share) const;
+  /// The state after its unknowns moved by `share` of `increment` [n_unknowns].
+  [[nodiscard]] State advance(State state, std::span<const double> increment, double share) const;
+  /// Gives the layout the lever arms of rigid rotations in this state.
+  void update_layout(const State &state);
+  /// Rows of boundary entries and rigid bodies with the force each puts on the rest.
+  [[nodiscard]] std::vector<Reaction> reactions(std::span<const double> residual) const;
+  /// Largest prescribed displacement change from one time to another, length.
+  [[nodiscard]] double prescribed_motion(double from, double to) const;
+
+private:
+  void build_layout();
+  void place_rigid_nodes(State &state) const;
+
+  ProblemOptions options_;
+  Mesh mesh_;
+  std::unique_ptr<RigidBodies> rigid_;
+  std::unique_ptr<Supports> supports_;
+  std::unique_ptr<BodyAssembly> bodies_;
+  std::vector<ContactInterface> contacts_;
+  std::vector<int> rigid_of_node_;
+  Layout layout_;
+};
+} // namespace amontons

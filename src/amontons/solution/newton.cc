@@ -1,0 +1,357 @@
+#include "amontons/solution/newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+namespace amontons
+{
+namespace
+{
+constexpr int max_halvings = 8;
+/// Times a set of statuses may come back before the increment is given up.
+constexpr int max_cycles = 6;
+/// A node that changed its status so often within an increment is named.
+constexpr int named_flips = 3;
+
+const char *name(ContactStatus status)
+{
+  return status == ContactStatus::open ? "open" : status == ContactStatus::stick ? "stick" : "slip";
+}
+
+double norm2(std::span<const double> v)
+{
+  double sum = 0;
+  for (const double x : v)
+    sum += x * x;
+  return sum;
+}
+
+double largest(std::span<const double> v)
+{
+  double out = 0;
+  for (const double x : v)
+    out = std::max(out, std::abs(x));
+  return out;
+}
+
+/// Identifies a set of statuses (FNV-1a).
+std::uint64_t signature(std::span<const ContactStatus> statuses)
+{
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const ContactStatus status : statuses)
+    hash = (hash ^ static_cast<std::uint64_t>(status)) * 1099511628211ull;
+  return hash;
+}
+} // namespace
+
+/// The residual at a state, and what is needed to go on from it.
+struct Newton::Evaluation
+{
+  bool valid = false;
+  std::vector<double> pending;  ///< prescribed motion still to come, nodal
+  std::vector<double> residual; ///< internal - external + contact, nodal
+  std::vector<double> rhs;      ///< minus the residual, over the unknowns, prescribed motion included
+  std::vector<ContactStatus> status;
+  double norm = 0, scale = 0; ///< force
+  double pending_motion = 0;  ///< length
+};
+
+Newton::Newton(Model &model, Counters &counters, Timers &timers, std::function<void(const IterationReport &)> report)
+  : model_(model)
+  , counters_(counters)
+  , timers_(timers)
+  , report_(std::move(report))
+  , solver_(make_direct_solver())
+  , form_(model.layout(), model.bodies().subdomains(), *solver_)
+  , contacts_(model, form_)
+  , free_motions_(model)
+{
+  free_motions_.check_restrained();
+  if (free_motions_.any())
+    contacts_.record_nodes();
+  contacts_.rebuild_pattern();
+}
+
+Newton::~Newton() = default;
+
+void Newton::begin_increment(const State &state, double reach)
+{
+  reach_ = reach;
+  for (ContactInterface &contact : model_.contacts())
+    contact.begin_increment(state.displacement, state.multipliers);
+}
+
+bool Newton::detect(State &state)
+{
+  if (model_.small_strain())
+    return false;
+  const auto scope = timers_.measure("detection");
+  bool changed = false;
+  for (ContactInterface &contact : model_.contacts())
+  {
+    ++counters_.n_detections;
+    if (!contact.detect(state.displacement, reach_, true))
+      continue;
+    changed = true;
+    contact.turn_multipliers(state.displacement, state.multipliers);
+  }
+  if (changed)
+    contacts_.rebuild_pattern();
+  return changed;
+}
+
+void Newton::prepare_matrix(const State &state, double time)
+{
+  const auto scope = timers_.measure("bulk_assembly");
+  model_.update_layout(state);
+  const bool rebuilt = form_.prepare();
+  if (rebuilt)
+    ++counters_.n_pattern_builds;
+  bool fresh = rebuilt;
+  if (!tangent_assembled_ || !model_.bodies().tangent_is_constant())
+  {
+    if (!model_.bodies().assemble_tangent(model_.mesh_part(state.displacement), time))
+      throw NumericalFailure("a cell turned inside out");
+    ++counters_.n_bulk_assemblies;
+    tangent_assembled_ = true;
+    fresh = true;
+  }
+  if (fresh)
+    form_.update_subdomains();
+}
+
+void Newton::compute_residual(Evaluation &out, const State &state, double time,
+                              const ContactContribution &contact) const
+{
+  std::vector<double> internal(out.pending.size(), 0.0), external(out.pending.size(), 0.0);
+  out.valid = model_.bodies().forces(model_.mesh_part(state.displacement), time, model_.mesh_part(internal),
+                                     model_.mesh_part(external));
+  out.residual.resize(internal.size());
+  for (std::size_t i = 0; i < internal.size(); ++i)
+    out.residual[i] = internal[i] - external[i] + contact.force[i];
+
+  const Layout &layout = model_.layout();
+  std::vector<double> forces(static_cast<std::size_t>(layout.n_unknowns()), 0.0), with_pending(out.residual);
+  std::vector<double> rigid(static_cast<std::size_t>(model_.rigid().n_unknowns()), 0.0);
+  model_.rigid().add_forces(time, rigid);
+  layout.gather(out.residual, forces);
+  for (std::size_t i = 0; i < rigid.size(); ++i)
+    forces[i] -= rigid[i];
+  out.norm = std::sqrt(norm2({forces.data(), static_cast<std::size_t>(layout.n_displacement_unknowns())}) +
+                       contact.constraint_norm2);
+  out.scale = std::sqrt(std::max({norm2(internal), norm2(external), contact.force_norm2, norm2(rigid)}));
+  if (!std::isfinite(out.norm))
+    out.valid = false;
+
+  if (out.pending_motion > 0)
+  {
+    for (const SubdomainMatrix &matrix : model_.bodies().subdomains())
+      multiply_add(matrix, out.pending, with_pending);
+    for (std::size_t i = 0; i < with_pending.size(); ++i)
+      with_pending[i] += contact.prescribed_force[i];
+  }
+  out.rhs.assign(forces.size(), 0.0);
+  layout.gather(with_pending, out.rhs);
+  for (std::size_t i = 0; i < rigid.size(); ++i)
+    out.rhs[i] -= rigid[i];
+  for (Index m = 0; m < layout.n_multipliers(); ++m)
+    out.rhs[layout.multiplier(m)] = contact.constraint[m] + contact.prescribed_gap[m];
+  for (double &value : out.rhs)
+    value = -value;
+}
+
+Newton::Evaluation Newton::evaluate(const State &state, const State &start, double time,
+                                    std::span<const std::pair<int, Index>> forced)
+{
+  Evaluation out;
+  try
+  {
+    prepare_matrix(state, time);
+  }
+  catch (const NumericalFailure &)
+  {
+    return out;
+  }
+  const State target = model_.prescribe(state, time, 1);
+  out.pending.resize(state.displacement.size());
+  for (std::size_t i = 0; i < out.pending.size(); ++i)
+    out.pending[i] = target.displacement[i] - state.displacement[i];
+  out.pending_motion = largest(out.pending);
+
+  const auto scope = timers_.measure("contact_assembly");
+  ++counters_.n_contact_updates;
+  const ContactContribution contact = contacts_.evaluate(
+      state, start.displacement,
+      out.pending_motion > 0 ? std::span<const double>(out.pending) : std::span<const double>{}, forced);
+  out.status = contact.status;
+  update_rigid_blocks(state, contact.force);
+  compute_residual(out, state, time, contact);
+  return out;
+}
+
+/// Second derivative of the places of a rigid body's nodes in its spins, times the contact forces on them:
+/// delta theta . (r f^T - (r . f) I) Delta theta for spins added one after the other.
+void Newton::update_rigid_blocks(const State &state, std::span<const double> contact_force)
+{
+  const int dim = model_.dim();
+  const auto bodies = model_.rigid().bodies();
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+  {
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+    if (!model_.small_strain())
+      for (const Index node : bodies[b].nodes)
+      {
+        Eigen::Vector3d f = Eigen::Vector3d::Zero();
+        for (int c = 0; c < dim; ++c)
+          f[c] = contact_force[static_cast<std::size_t>(node) * dim + c];
+        const Eigen::Vector3d arm = state.rigid[b].rotation * (model_.reference(node) - bodies[b].point);
+        moment += arm * f.transpose() - arm.dot(f) * Eigen::Matrix3d::Identity();
+      }
+    std::vector<int> axes;
+    for (int axis = 0; axis < 3; ++axis)
+      if (bodies[b].rotation[axis].unknown >= 0)
+        axes.push_back(axis);
+    form_.update_dense_block(b, moment(axes, axes));
+  }
+}
+
+void Newton::restrain(Evaluation &at, const State &state, const State &start, double time)
+{
+  if (!free_motions_.any())
+    return;
+  const FreeMotions::Decision decision =
+      free_motions_.decide(state, contacts_.holding(), contacts_.candidates(), at.residual, time, at.scale);
+  const bool bordered = form_.set_held_modes(decision.held_modes);
+  if (!decision.closed.empty() || bordered)
+    at = evaluate(state, start, time, decision.closed);
+}
+
+std::vector<double> Newton::solve_linear(const Evaluation &at, const State &)
+{
+  std::vector<double> step(at.rhs.size());
+  {
+    const auto scope = timers_.measure("linear_setup");
+    form_.factorize();
+    ++counters_.n_factorizations;
+  }
+  const auto scope = timers_.measure("linear_solve");
+  form_.solve(at.rhs, step);
+  ++counters_.n_linear_iterations;
+  for (const double x : step)
+    if (!std::isfinite(x))
+      throw NumericalFailure("the tangent matrix is singular");
+  return step;
+}
+
+std::string Newton::remark(const Evaluation &now, std::span<const ContactStatus> before)
+{
+  std::size_t worst = now.status.size();
+  for (std::size_t k = 0; k < now.status.size(); ++k)
+    if (now.status[k] != before[k])
+    {
+      ++n_flips_[k];
+      if (n_flips_[k] >= named_flips && (worst == now.status.size() || n_flips_[k] > n_flips_[worst]))
+        worst = k;
+    }
+  if (worst == now.status.size())
+    return "";
+  std::size_t first = 0;
+  for (const ContactInterface &contact : model_.contacts())
+  {
+    if (worst < first + static_cast<std::size_t>(contact.n_nodes()))
+    {
+      const GlobalIndex node = contact.impactor().node_ids[worst - first];
+      return "node " + std::to_string(model_.mesh().node_tags[static_cast<std::size_t>(node)]) + " " +
+             name(before[worst]) + "<->" + name(now.status[worst]) + ", change " + std::to_string(n_flips_[worst]);
+    }
+    first += static_cast<std::size_t>(contact.n_nodes());
+  }
+  return "";
+}
+
+NewtonOutcome Newton::solve(State &state, double time)
+{
+  NewtonOutcome outcome;
+  const State start = state;
+  State now = state;
+  const SolverOptions &options = model_.options().solver;
+  try
+  {
+    form_.set_held_modes({});
+    detect(now);
+    Evaluation at = evaluate(now, start, time, {});
+    if (!at.valid)
+      throw NumericalFailure("a cell is inside out at the beginning of the increment");
+    n_flips_.assign(at.status.size(), 0);
+    std::map<std::uint64_t, int> seen;
+    int n_cycles = 0;
+    bool damp = false;
+    for (int iteration = 1;; ++iteration)
+    {
+      if (at.norm <= options.tolerance * at.scale && at.pending_motion == 0)
+      {
+        outcome.converged = true;
+        break;
+      }
+      if (iteration > options.max_iterations)
+        throw NumericalFailure("no convergence in " + std::to_string(options.max_iterations) + " iterations");
+      restrain(at, now, start, time);
+      const std::vector<double> step = solve_linear(at, now);
+      outcome.n_iterations = iteration;
+      ++outcome.n_linear_iterations;
+      ++counters_.n_newton_iterations;
+
+      double share = damp ? 0.5 : 1;
+      State next;
+      Evaluation after;
+      for (int k = 0; k <= max_halvings && !after.valid; ++k, share *= 0.5)
+      {
+        next = model_.prescribe(model_.advance(now, step, share), time, share);
+        detect(next);
+        after = evaluate(next, start, time, {});
+        if (after.valid)
+          break;
+      }
+      if (!after.valid)
+        throw NumericalFailure("a cell turns inside out");
+
+      IterationReport report;
+      report.iteration = iteration;
+      report.step_length = share;
+      report.residual = after.scale > 0 ? after.norm / after.scale : after.norm;
+      std::vector<double> change(next.displacement);
+      for (std::size_t i = 0; i < change.size(); ++i)
+        change[i] -= now.displacement[i];
+      const double motion = largest(next.displacement);
+      report.correction = motion > 0 ? largest(change) / motion : 0;
+      for (std::size_t k = 0; k < after.status.size(); ++k)
+      {
+        report.n_status_changes += after.status[k] != at.status[k];
+        report.n_stick += after.status[k] == ContactStatus::stick;
+        report.n_slip += after.status[k] == ContactStatus::slip;
+      }
+      report.n_active = report.n_stick + report.n_slip;
+      report.remark = remark(after, at.status);
+      // A set of statuses that comes back after others: the iterations turn in a circle.
+      const auto [place, is_new] = seen.try_emplace(signature(after.status), iteration);
+      damp = !is_new && report.n_status_changes > 0 && place->second < iteration - 1;
+      place->second = iteration;
+      n_cycles += damp;
+      report_(report);
+      now = std::move(next);
+      at = std::move(after);
+      if (n_cycles > max_cycles)
+        throw NumericalFailure("statuses turn in a circle" + (report.remark.empty() ? "" : ": " + report.remark));
+    }
+    residual_ = at.residual;
+    state = std::move(now);
+  }
+  catch (const NumericalFailure &failure)
+  {
+    outcome.cause = failure.what();
+  }
+  return outcome;
+}
+} // namespace amontons

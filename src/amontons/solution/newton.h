@@ -1,0 +1,68 @@
+#pragma once
+#include "amontons/algebra/coupled_form.h"
+#include "amontons/algebra/linear_solver.h"
+#include "amontons/base/timer.h"
+#include "amontons/solution/contact_assembly.h"
+#include "amontons/solution/free_motions.h"
+#include "amontons/solution/model.h"
+#include "amontons/solution/observer.h"
+
+#include <functional>
+#include <string>
+
+namespace amontons
+{
+/// How an attempt at an increment ended.
+struct NewtonOutcome
+{
+  bool converged = false;
+  std::string cause; ///< of failure
+  int n_iterations = 0;
+  int n_linear_iterations = 0;
+};
+
+/// Semismooth Newton method for G(x) + F(x, lambda) = 0 over one increment: statuses are decided by sigma at each
+/// iteration (Alart, Curnier 1991). Full steps; a step is halved only where a cell would turn inside out, or to leave a
+/// cycle of statuses. Converged when the residual, with r F_lambda for the constraints, is below the tolerance times
+/// the forces present.
+class Newton
+{
+public:
+  Newton(Model &model, Counters &counters, Timers &timers, std::function<void(const IterationReport &)> report);
+  ~Newton();
+
+  /// Moves `state` from its equilibrium to the one at `time`. On failure `state` is left as it was.
+  NewtonOutcome solve(State &state, double time);
+
+  /// Residual at a converged state, nodal: reactions at held components. [n_nodal]
+  [[nodiscard]] const std::vector<double> &residual() const { return residual_; }
+
+  /// Called before each solve() of an increment: searches faces and starts the slip. @param reach see Detector
+  void begin_increment(const State &state, double reach);
+
+private:
+  struct Evaluation;
+  [[nodiscard]] Evaluation evaluate(const State &state, const State &start, double time,
+                                    std::span<const std::pair<int, Index>> forced);
+  void compute_residual(Evaluation &out, const State &state, double time, const ContactContribution &contact) const;
+  bool detect(State &state);
+  void prepare_matrix(const State &state, double time);
+  [[nodiscard]] std::vector<double> solve_linear(const Evaluation &at, const State &state);
+  void restrain(Evaluation &at, const State &state, const State &start, double time);
+  void update_rigid_blocks(const State &state, std::span<const double> contact_force);
+  [[nodiscard]] std::string remark(const Evaluation &now, std::span<const ContactStatus> before);
+
+  Model &model_;
+  Counters &counters_;
+  Timers &timers_;
+  std::function<void(const IterationReport &)> report_;
+  std::unique_ptr<LinearSolver> solver_;
+  CoupledForm form_;
+  ContactAssembly contacts_;
+  FreeMotions free_motions_;
+  double reach_ = 0;
+  bool tangent_assembled_ = false;
+  std::vector<double> residual_;
+  std::vector<int> n_flips_; ///< of each contact node's status within the increment
+};
+} // namespace amontons

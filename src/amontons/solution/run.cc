@@ -1,0 +1,256 @@
+#include "amontons/solution/run.h"
+
+#include "amontons/solution/newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace amontons
+{
+namespace
+{
+constexpr double cut_factor = 0.5;
+constexpr double growth_factor = 1.5;
+/// An increment that took no more iterations lets the next one grow.
+constexpr int easy_iterations = 6;
+constexpr double default_min_increment = 1e-4;
+/// Gaps up to this share of the contact's extent are looked at in small strain, where pairs are made once.
+constexpr double small_strain_reach = 0.05;
+/// Part of the local size below which an overlap at the start is the mesh's chord error, not worth a warning.
+constexpr double overlap_to_tell = 1e-6;
+
+struct Box
+{
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d high = Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity());
+};
+
+Box box_of(const Surface &surface)
+{
+  Box box;
+  for (Index i = 0; i < surface.n_nodes(); ++i)
+    for (int c = 0; c < 3; ++c)
+    {
+      const double x = c < surface.dim ? surface.reference[i * surface.dim + c] : 0;
+      box.low[c] = std::min(box.low[c], x);
+      box.high[c] = std::max(box.high[c], x);
+    }
+  return box;
+}
+
+/// How far the surfaces of a contact are apart, by their boxes, and how large they are.
+std::pair<double, double> separation_and_extent(const ContactInterface &contact)
+{
+  const Box a = box_of(contact.impactor());
+  const double extent = (a.high - a.low).norm();
+  if (!contact.target())
+    return {0, extent};
+  const Box b = box_of(*contact.target());
+  const Eigen::Vector3d apart = (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0);
+  return {apart.norm(), std::max(extent, (b.high - b.low).norm())};
+}
+
+/// Mean stiffness of each nodal component, for r.
+std::vector<double> diagonal_stiffness(const Model &model)
+{
+  std::vector<double> diagonal(static_cast<std::size_t>(model.n_nodal()), 0.0);
+  for (const SubdomainMatrix &matrix : model.bodies().subdomains())
+    for (Index row = 0; row < matrix.n_rows(); ++row)
+      for (Index k = matrix.row_ptr[row]; k < matrix.row_ptr[row + 1]; ++k)
+        if (matrix.col[k] == row)
+          diagonal[static_cast<std::size_t>(matrix.nodes[row / matrix.n_components]) * matrix.n_components +
+                   row % matrix.n_components] += matrix.values[k];
+  return diagonal;
+}
+
+/// First detection of all contacts, in the reference geometry.
+void detect_first(Model &model, const State &state)
+{
+  for (ContactInterface &contact : model.contacts())
+  {
+    const auto [separation, extent] = separation_and_extent(contact);
+    const double motion = model.prescribed_motion(0, model.options().loading.end);
+    contact.detect(state.displacement, separation + std::max(motion, small_strain_reach * extent), false);
+    if (contact.options().initial_overlap == InitialOverlap::adjust)
+      contact.adjust_initial_overlap(state.displacement);
+  }
+}
+
+std::vector<std::string> initial_warnings(const Model &model)
+{
+  std::vector<std::string> out;
+  for (const ContactInterface &contact : model.contacts())
+  {
+    const DetectionReport report = contact.detection_report();
+    if (report.n_pairs == 0)
+      out.push_back("contact '" + contact.options().name + "': no node of the impactor finds the target");
+    if (!contact.target() || report.deepest_node < 0)
+      continue;
+    const double size = std::pow(contact.areas()[report.deepest_node], 1.0 / (model.dim() - 1));
+    if (report.deepest < -overlap_to_tell * size)
+    {
+      const auto node = static_cast<std::size_t>(contact.impactor().node_ids[report.deepest_node]);
+      out.push_back("contact '" + contact.options().name + "': " + std::to_string(report.n_penetrations) +
+                    " nodes lie inside the target at the start, deepest " + std::to_string(report.deepest) +
+                    " at node " + std::to_string(model.mesh().node_tags[node]) +
+                    (contact.options().initial_overlap == InitialOverlap::adjust ? "; taken as touching"
+                                                                                 : "; resolved as interference"));
+    }
+  }
+  return out;
+}
+
+/// A run under way.
+class Run
+{
+public:
+  Run(const ProblemOptions &options, std::span<Observer *const> observers)
+    : observers_(observers)
+  {
+    {
+      const auto scope = timers_.measure("mesh");
+      model_ = std::make_unique<Model>(options);
+    }
+    const auto scope = timers_.measure("setup");
+    state_ = model_->initial_state();
+    if (!model_->bodies().assemble_tangent(model_->mesh_part(state_.displacement), 0))
+      throw InternalError("a cell is inside out at the start");
+    const std::vector<double> diagonal = diagonal_stiffness(*model_);
+    for (ContactInterface &contact : model_->contacts())
+      contact.set_augmentation(diagonal);
+    detect_first(*model_, state_);
+    counters_.n_detections += static_cast<std::int64_t>(model_->contacts().size());
+    newton_ = std::make_unique<Newton>(*model_, counters_, timers_,
+                                       [this](const IterationReport &r) { tell(&Observer::iteration, r); });
+  }
+
+  RunResult solve()
+  {
+    tell(&Observer::start, solution(0, {}), static_cast<std::int64_t>(model_->layout().n_unknowns()));
+    for (const std::string &warning : initial_warnings(*model_))
+      tell(&Observer::warning, warning);
+    const LoadingOptions &loading = model_->options().loading;
+    const double first = loading.end / loading.increments;
+    const double least = loading.min_increment.value_or(default_min_increment * first);
+    const double most = loading.max_increment.value_or(first);
+    double time = 0, step = std::min(first, most);
+    SolutionState last = solution(0, {});
+    std::string failure;
+    for (int increment = 1, cutbacks = 0; time < loading.end;)
+    {
+      double to = time + step;
+      if (to > loading.end - 1e-9 * loading.end)
+        to = loading.end;
+      tell(&Observer::begin_increment, increment, to, to - time);
+      State next = state_;
+      newton_->begin_increment(next, reach(time, to));
+      const NewtonOutcome outcome = newton_->solve(next, to);
+      const IncrementReport report{to, to - time, outcome.n_iterations, outcome.n_linear_iterations, cutbacks};
+      if (!outcome.converged)
+      {
+        tell(&Observer::rejected, report, outcome.cause);
+        ++cutbacks;
+        step = cut_factor * (to - time);
+        if (loading.fixed || step < least)
+        {
+          failure = "increment " + std::to_string(increment) + " (t = " + std::to_string(time) + " to " +
+                    std::to_string(to) + "): " + outcome.cause;
+          break;
+        }
+        continue;
+      }
+      last = accept(next, increment, to);
+      tell(&Observer::accepted, report, last);
+      if (!loading.fixed && outcome.n_iterations <= easy_iterations)
+        step = std::min(most, growth_factor * step);
+      time = to;
+      cutbacks = 0;
+      ++increment;
+    }
+    tell(&Observer::finish, last, counters_, timers_, failure);
+    return {failure.empty(), failure};
+  }
+
+private:
+  template<class... Parameters, class... Arguments>
+  void tell(void (Observer::*event)(Parameters...), const Arguments &...arguments)
+  {
+    const auto scope = timers_.measure("output");
+    for (Observer *observer : observers_)
+      (observer->*event)(arguments...);
+  }
+
+  /// Twice the largest motion expected in the increment.
+  [[nodiscard]] double reach(double from, double to) const
+  {
+    double reach = 2 * std::max(model_->prescribed_motion(from, to), last_motion_);
+    if (from == 0 || last_motion_ == 0)
+      for (const ContactInterface &contact : model_->contacts())
+        reach = std::max(reach, 2 * separation_and_extent(contact).first);
+    return reach;
+  }
+
+  [[nodiscard]] SolutionState solution(int increment, std::vector<Reaction> reactions)
+  {
+    SolutionState out;
+    out.mesh = &model_->mesh();
+    out.time = time_;
+    out.increment = increment;
+    const auto u = model_->mesh_part(state_.displacement);
+    out.displacement.assign(u.begin(), u.end());
+    out.stress = model_->bodies().stress(u);
+    const State &start = increment > 0 ? start_ : state_;
+    for (ContactInterface &contact : model_->contacts())
+      out.contacts.push_back(contact.result(state_.displacement, start.displacement, state_.multipliers));
+    out.reactions = std::move(reactions);
+    return out;
+  }
+
+  SolutionState accept(State &next, int increment, double time)
+  {
+    last_motion_ = 0;
+    for (std::size_t i = 0; i < next.displacement.size(); ++i)
+      last_motion_ = std::max(last_motion_, std::abs(next.displacement[i] - state_.displacement[i]));
+    start_ = std::move(state_);
+    state_ = std::move(next);
+    time_ = time;
+    SolutionState out = solution(increment, model_->reactions(newton_->residual()));
+    for (std::size_t c = 0; c < out.contacts.size(); ++c)
+      model_->contacts()[c].commit(out.contacts[c]);
+    return out;
+  }
+
+  std::span<Observer *const> observers_;
+  Timers timers_;
+  Counters counters_;
+  std::unique_ptr<Model> model_;
+  std::unique_ptr<Newton> newton_;
+  State state_, start_;
+  double time_ = 0;
+  double last_motion_ = 0;
+};
+} // namespace
+
+RunResult run(const ProblemOptions &options, std::span<Observer *const> observers)
+{
+  return Run(options, observers).solve();
+}
+
+ProblemCheck check_problem(const ProblemOptions &options)
+{
+  Model model(options);
+  FreeMotions(model).check_restrained();
+  const State state = model.initial_state();
+  detect_first(model, state);
+  ProblemCheck out;
+  out.n_nodes = model.mesh().n_nodes();
+  out.n_cells = model.mesh().cells.size();
+  out.n_dofs = model.layout().n_unknowns();
+  for (const ContactInterface &contact : model.contacts())
+    out.contacts.push_back({contact.options().name, contact.n_nodes(),
+                            contact.target() ? contact.target()->n_faces() : 0, contact.detection_report()});
+  out.warnings = initial_warnings(model);
+  return out;
+}
+} // namespace amontons
