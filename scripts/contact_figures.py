@@ -12,16 +12,16 @@ def line_zero(points):
     return mean_x - mean_y / slope, mean_y - slope * mean_x
 
 
-def hertz_fit(nodes, axis="x"):
-    """Contact radius (or half-width) and peak pressure of a smooth contact centred on 0.
+def hertz_fit(nodes, low=0.3, high=0.8):
+    """Contact radius (or half-width) and peak pressure of a smooth contact centred on x = 0.
 
-    Hertz's pressure obeys p^2 = p0^2 (1 - r^2/a^2), and every smooth contact does so near its edge, so p^2 is fitted by a
-    line in r^2 over the nodes with 0.3 to 0.8 of the largest pressure (0.6 a to 0.95 a): the last nodes, where one
-    cell smears the root, and the axis, where an axisymmetric nodal pressure is least exact, are left out.
+    Hertz's pressure obeys p^2 = p0^2 (1 - r^2/a^2), so p^2 is fitted by a line in r^2 over the nodes with `low` to `high` of
+    the largest pressure. The default, 0.6 a to 0.95 a, leaves out the last nodes, where one cell smears the root, and the
+    axis, where an axisymmetric nodal pressure is least exact. With friction only the edge has that shape: 0.1 to 0.4.
     """
     largest = max(node["pressure"] for node in nodes)
-    square, intercept = line_zero([(node[axis] ** 2, node["pressure"] ** 2) for node in nodes
-                                   if 0.3 <= node["pressure"] / largest <= 0.8])
+    square, intercept = line_zero([(node["x"] ** 2, node["pressure"] ** 2) for node in nodes
+                                   if low <= node["pressure"] / largest <= high])
     return math.sqrt(square), math.sqrt(intercept)
 
 
@@ -41,9 +41,9 @@ def stick_radius_by_slip(nodes):
 def stick_radius_by_traction(nodes, mu):
     """Stick radius where the contact grew while it was loaded, so that sticking nodes have slip of earlier times.
 
-    mu p - |q| goes to zero at the stick zone's edge like a square root: the zero of the line through the squares of
-    (1 - |q|/(mu p)) at the 2nd and 4th sticking node from that edge.
+    The growth of |q| falls behind that of mu p like a square root of the distance from the stick zone's edge, |q| itself
+    like its power 3/2: the zero of the line through (1 - |q|/(mu p))^(2/3) at the 2nd and 4th sticking node from that edge.
     """
-    sticking = [(node["x"], (1 - abs(node["traction_1"]) / (mu * node["pressure"])) ** 2)
+    sticking = [(node["x"], max(1 - abs(node["traction_1"]) / (mu * node["pressure"]), 0) ** (2 / 3))
                 for node in sorted(nodes, key=lambda node: -node["x"]) if node["status"] == "stick"]
     return line_zero([sticking[1], sticking[3]])[0]

@@ -80,9 +80,9 @@ def hertz_sphere(finished):
 
 
 def sphere_with_friction(finished):
-    """The stick radius of a growing contact is that of the flat punch (Spence 1975)."""
+    """The stick radius of a growing contact is that of the flat punch (Spence 1975), up to terms in a/R."""
     nodes = finished.nodes()
-    return [Figure("c/a", stick_radius_by_traction(nodes, 0.2) / hertz_fit(nodes)[0], 0.69828, 0.02)]
+    return [Figure("c/a", stick_radius_by_traction(nodes, 0.2) / hertz_fit(nodes, 0.1, 0.4)[0], 0.69828, 0.02)]
 
 
 def hertz_cylinder(finished):
