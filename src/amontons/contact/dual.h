@@ -10,12 +10,18 @@ namespace amontons
 template<int n>
 struct Dual
 {
-  double value = 0;
-  std::array<double, n> gradient{};
+  /// Padded with zeros to whole vector registers, which halves the cost on a bilinear face (n = 15).
+  static constexpr int n_stored = n + n % 2;
+  double value;
+  alignas(16) std::array<double, n_stored> gradient;
 
-  Dual() = default;
+  Dual()
+    : Dual(0)
+  {
+  }
   Dual(double constant) // NOLINT(google-explicit-constructor): constants mix freely with variables
     : value(constant)
+    , gradient{}
   {
   }
   /// The i-th variable.
@@ -29,14 +35,14 @@ struct Dual
   static Dual chain(double f, double df_da, const Dual &a)
   {
     Dual out(f);
-    for (int i = 0; i < n; ++i)
+    for (int i = 0; i < n_stored; ++i)
       out.gradient[i] = df_da * a.gradient[i];
     return out;
   }
   static Dual chain(double f, double df_da, const Dual &a, double df_db, const Dual &b)
   {
     Dual out(f);
-    for (int i = 0; i < n; ++i)
+    for (int i = 0; i < n_stored; ++i)
       out.gradient[i] = df_da * a.gradient[i] + df_db * b.gradient[i];
     return out;
   }
