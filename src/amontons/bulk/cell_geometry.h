@@ -22,7 +22,7 @@ struct CellType
   static constexpr int unknowns = dim * nodes; ///< node by node
   /// The strain of a simplex is constant, but for the hoop strain.
   static constexpr int order = simplex && !axisymmetric ? 1 : 2;
-  static constexpr int points = simplex ? (axisymmetric ? 3 : 1) : nodes;
+  static constexpr int points = simplex ? (axisymmetric ? 4 : 1) : nodes;
 
   template<typename Scalar>
   using NodalValues = Eigen::Matrix<Scalar, dim, nodes>; ///< a column per node

@@ -17,7 +17,7 @@ struct FacetType
   static constexpr int dim = dimension(shape) + 1;
   static constexpr int nodes = n_nodes(shape);
   static constexpr int unknowns = dim * nodes; ///< node by node
-  static constexpr int points = shape == CellShape::triangle ? 3 : nodes;
+  static constexpr int points = shape == CellShape::triangle ? 4 : nodes;
 
   template<typename Scalar>
   using NodalValues = Eigen::Matrix<Scalar, dim, nodes>; ///< a column per node

@@ -19,7 +19,9 @@ struct ReferenceElement
   std::vector<double> gradients; ///< [n_points * n_nodes * dim], by the reference coordinates
 };
 
-/// @param order points per direction of Gauss's rule; on simplices 1 is the centroid, 2 a rule exact to degree 2
+/// @param order points per direction of Gauss's rule; on simplices 1 is the centroid, 2 a rule exact to degree 3 (4
+/// points on a
+///        triangle, 6 in a tetrahedron)
 ReferenceElement reference_element(CellShape shape, int order);
 
 /// Dimension of a shape and its number of nodes.
