@@ -33,8 +33,7 @@ void check_unique(const Value &root, const std::string &list, const std::string 
   for (const Value &entry : values->items)
     if (const Value *value = entry.find(key))
       if (const auto [other, is_new] = first.emplace(value->text, value); !is_new)
-        value->fail("'" + value->text + "' is taken already, at " + other->second->where.text() + "; each of the " +
-                    list + " has its own");
+        value->fail("'" + value->text + "' is taken already, at " + other->second->where.text());
 }
 
 void check_bodies(const Value &root, const Deck &deck)

@@ -8,8 +8,8 @@ namespace
 {
 constexpr const char *introduction = R"(# The deck
 
-A deck is one YAML file. The table of this page is the table by which decks are read; the page is made from it by the
-target `deck_reference`.
+A deck is one YAML file. The table of this page is the table by which decks are read; the page is made from it by
+`AMONTONS_UPDATE_REFERENCE=1 ctest -R DeckReference`.
 
 - Keys are written as here, with hyphens. A key that is not listed, a key twice in one place and an empty list are
   errors.

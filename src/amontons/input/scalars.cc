@@ -58,11 +58,11 @@ std::string number_text(double value)
   return {buffer, result.ptr};
 }
 
-double to_number(const Value &value, const Range &range)
+double to_number(const Value &value, const Range &range, const std::string &wanted)
 {
   double number = 0;
   if (value.kind != Value::Kind::scalar || value.quoted || !parse(value.text, number) || !std::isfinite(number))
-    fail_type(value, "a number");
+    fail_type(value, wanted);
   check_range(value, number, range);
   return number;
 }

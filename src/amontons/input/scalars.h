@@ -28,7 +28,7 @@ inline constexpr Range not_negative{0, std::numeric_limits<double>::infinity(), 
 std::string number_text(double value);
 
 /// All of these @throw UserError with place and path where the value is of another type or out of range.
-double to_number(const Value &value, const Range &range);
+double to_number(const Value &value, const Range &range, const std::string &wanted = "a number");
 int to_integer(const Value &value, const Range &range);
 bool to_boolean(const Value &value);
 /// Text that is not empty.

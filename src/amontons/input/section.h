@@ -79,8 +79,9 @@ public:
     return key(row(name, "number or `" + word + "`", unit, range.text(), otherwise(preset), "", meaning,
                    [=](const Value &v, T &out, ReadContext &)
                    {
-                     if (v.kind != Value::Kind::scalar || v.text != word)
-                       out.*member = to_number(v, range);
+                     if (v.kind == Value::Kind::scalar && v.text == word)
+                       return;
+                     out.*member = to_number(v, range, "a number or " + word);
                    }));
   }
 
@@ -159,7 +160,7 @@ public:
     Key k = row(name, "list of maps", "", "", need, "", meaning,
                 [=](const Value &v, T &out, ReadContext &context)
                 {
-                  require_list(v, name);
+                  require_list(v, "entries");
                   for (const Value &item : v.items)
                   {
                     Inner value;
