@@ -32,6 +32,8 @@ struct Case
 
 /// Every kind of element there is.
 const std::vector<std::string> &case_kinds();
+/// Those that can be made without slip: all but the quadrilateral met far outside.
+std::vector<std::string> slipless_case_kinds();
 
 /// @param with_slip whether something slipped since the increment's beginning
 Case make_case(const std::string &kind, unsigned seed, bool with_slip);

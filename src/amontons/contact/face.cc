@@ -15,13 +15,18 @@ void require_extent(bool has_extent)
     throw NumericalFailure("a target face has collapsed to a line or a point");
 }
 
+bool is_plane(const Point<double, 3> &a1, const Point<double, 3> &a2)
+{
+  return a1.cross(a2).squaredNorm() > 1e-24 * a1.squaredNorm() * a2.squaredNorm();
+}
+
 /// The point of the plane through `origin`, spanned by a1 and a2, that is closest to x, in units of a1 and a2.
 std::array<double, 2> project_on_plane(const Point<double, 3> &a1, const Point<double, 3> &a2,
                                        const Point<double, 3> &origin, const Point<double, 3> &x)
 {
   const double m11 = a1.squaredNorm(), m22 = a2.squaredNorm(), m12 = a1.dot(a2);
   const double determinant = a1.cross(a2).squaredNorm();
-  require_extent(determinant > 1e-24 * m11 * m22);
+  require_extent(is_plane(a1, a2));
   // Twice: the second step takes away the first one's round-off on a slender face.
   std::array<double, 2> xi{0, 0};
   for (int step = 0; step < 2; ++step)
@@ -37,13 +42,21 @@ Projection project_on_quadrilateral(const FaceNodes<double, 3, 4> &nodes, const 
                                     std::array<double, 2> xi_guess)
 {
   const FaceCoordinates face{4, nodes};
+  const auto converged = [&](LocalPoint &xi)
+  {
+    if (!newton_on_quadrilateral(face, x, xi))
+      return false;
+    const auto base = face_tangents(face, xi);
+    require_extent(is_plane(base[0], base[1]));
+    return true;
+  };
   Projection out;
   out.xi = {std::clamp(xi_guess[0], -0.5, 1.5), std::clamp(xi_guess[1], -0.5, 1.5)};
-  if (newton_on_quadrilateral(face, x, out.xi))
+  if (converged(out.xi))
     return out;
   const ClosestPoint closest = closest_point(face, x);
   out.xi = closest.xi;
-  if (newton_on_quadrilateral(face, x, out.xi))
+  if (converged(out.xi))
     return out;
   out.chart = {true, closest.xi};
   const auto base = face_tangents(face, closest.xi);
