@@ -89,8 +89,8 @@ void BoxTree<dim>::refit(std::span<const Box> boxes)
   for (Node &node : nodes_)
     for (int c = 0; c < dim; ++c)
     {
-      node.low[c].fill(far);
-      node.high[c].fill(-far);
+      node.low[c].setConstant(far);
+      node.high[c].setConstant(-far);
     }
   for (std::size_t i = 0; i < boxes.size(); ++i)
     for (int c = 0; c < dim; ++c)
@@ -106,8 +106,8 @@ void BoxTree<dim>::refit(std::span<const Box> boxes)
       Node &parent = nodes_[level_begin_[level] + i / width];
       for (int c = 0; c < dim; ++c)
       {
-        parent.low[c][i % width] = *std::min_element(nodes_[child].low[c].begin(), nodes_[child].low[c].end());
-        parent.high[c][i % width] = *std::max_element(nodes_[child].high[c].begin(), nodes_[child].high[c].end());
+        parent.low[c][i % width] = nodes_[child].low[c].minCoeff();
+        parent.high[c][i % width] = nodes_[child].high[c].maxCoeff();
       }
     }
 }
@@ -118,8 +118,7 @@ double BoxTree<dim>::total_extent() const
   double total = 0;
   for (std::size_t n = level_begin_.size() > 1 ? level_begin_[1] : 0; n-- > 0;)
     for (int c = 0; c < dim; ++c)
-      total += *std::max_element(nodes_[n].high[c].begin(), nodes_[n].high[c].end()) -
-               *std::min_element(nodes_[n].low[c].begin(), nodes_[n].low[c].end());
+      total += nodes_[n].high[c].maxCoeff() - nodes_[n].low[c].minCoeff();
   return total;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 #include "amontons/base/ids.h"
 
+#include <Eigen/Core>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -34,10 +36,11 @@ public:
   void visit_within(const std::array<double, dim> &x, const double &squared_bound, Visitor &&visit) const;
 
 private:
+  using Floats = Eigen::Array<float, width, 1>;
   /// Eight boxes, single precision, grown by what rounding may have taken, relative to origin_.
   struct Node
   {
-    std::array<std::array<float, width>, dim> low, high;
+    std::array<Floats, dim> low, high;
   };
   struct Entry
   {

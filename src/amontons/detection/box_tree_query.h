@@ -25,13 +25,9 @@ void BoxTree<dim>::visit_within(const std::array<double, dim> &x, const double &
     if (entry.squared_distance > margin * static_cast<float>(squared_bound))
       continue;
     const Node &node = nodes_[level_begin_[entry.level] + entry.index];
-    std::array<float, width> distance{};
+    Floats distance = Floats::Zero();
     for (int c = 0; c < dim; ++c)
-      for (int i = 0; i < width; ++i)
-      {
-        const float outside = std::max(std::max(node.low[c][i] - point[c], point[c] - node.high[c][i]), 0.0F);
-        distance[i] += outside * outside;
-      }
+      distance += (node.low[c] - point[c]).max(point[c] - node.high[c]).max(0.0F).square();
     // Those within the bound, farthest first, so that the nearest comes off the stack first.
     std::array<Entry, width> found;
     int n_found = 0;

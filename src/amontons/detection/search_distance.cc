@@ -15,32 +15,33 @@ namespace
 {
 using Eigen::Vector3d;
 
-// The farthest point from the nodes is the circumcentre, or, where the angle at `a` is obtuse, a point of the opposite
-// edge as far from b (or c) as from a.
-double triangle_radius(const Vector3d &a, const Vector3d &b, const Vector3d &c)
+// Squared. The farthest point from the nodes is the circumcentre, or, where an angle is obtuse, the point of the
+// longest edge as far from its end as from the third node. Squares only: this is done for every face in every
+// detection.
+double triangle_radius2(const Vector3d &x, const Vector3d &y, const Vector3d &z)
 {
-  std::array<double, 3> opposite{(c - b).norm(), (a - c).norm(), (b - a).norm()};
-  const auto k = static_cast<std::size_t>(std::max_element(opposite.begin(), opposite.end()) - opposite.begin());
-  const double longest = opposite[k], left = opposite[(k + 1) % 3], right = opposite[(k + 2) % 3];
-  if (!(longest > 0))
+  double a = (z - y).squaredNorm(), b = (x - z).squaredNorm(), c = (y - x).squaredNorm();
+  if (b > a)
+    std::swap(a, b);
+  if (c > a)
+    std::swap(a, c);
+  if (!(a > 0))
     return 0;
-  const double two_areas = (b - a).cross(c - a).norm();
-  if (left * left + right * right > longest * longest)
-    return longest * left * right / (2 * two_areas);
-  // cos of the angle between the longest edge and each of the others
-  const double cos_left = (longest * longest + left * left - right * right) / (2 * longest * left);
-  const double cos_right = (longest * longest + right * right - left * left) / (2 * longest * right);
-  return std::max(left > 0 ? left / (2 * cos_left) : 0.0, right > 0 ? right / (2 * cos_right) : 0.0);
+  if (b + c > a)
+    return a * b * c / (4 * a * b - (a + b - c) * (a + b - c)); // 16 area^2 below
+  // b / (2 cos)^2, cos^2 = (a + b - c)^2 / (4 a b) for the edge b; the longer of the other two needs more.
+  const double longer = std::max(b, c), twice_projection = a + longer - std::min(b, c);
+  return longer * longer * a / (twice_projection * twice_projection);
 }
 
 double quadrilateral_radius(const FaceCoordinates &face)
 {
   const auto &x = face.x;
-  const double first = std::max(triangle_radius(x[0], x[1], x[2]), triangle_radius(x[0], x[2], x[3]));
-  const double second = std::max(triangle_radius(x[0], x[1], x[3]), triangle_radius(x[1], x[2], x[3]));
+  const double first = std::max(triangle_radius2(x[0], x[1], x[2]), triangle_radius2(x[0], x[2], x[3]));
+  const double second = std::max(triangle_radius2(x[0], x[1], x[3]), triangle_radius2(x[1], x[2], x[3]));
   const Vector3d warp = x[0] - x[1] + x[2] - x[3];
   const double bulge = 0.25 * std::abs(warp.dot(face_normal(face, {0.5, 0.5})));
-  return std::min(first, second) + bulge;
+  return std::sqrt(std::min(first, second)) + bulge;
 }
 
 [[noreturn]] void refuse(const Target &target, double w, const SearchDistance &least)
@@ -64,7 +65,7 @@ double covering_radius(const FaceCoordinates &face)
   if (face.n_nodes == 2)
     return 0.5 * (face.x[1] - face.x[0]).norm();
   if (face.n_nodes == 3)
-    return triangle_radius(face.x[0], face.x[1], face.x[2]);
+    return std::sqrt(triangle_radius2(face.x[0], face.x[1], face.x[2]));
   return quadrilateral_radius(face);
 }
 
