@@ -2,67 +2,22 @@
 
 #include "amontons/detection/hilbert.h"
 
-#include <cmath>
 #include <limits>
 
 namespace amontons
 {
 template<int dim>
-void BoxTree<dim>::fill(std::span<const Box> boxes)
+void BoxTree<dim>::order_by(std::span<const std::array<double, static_cast<std::size_t>(dim)>> centres)
 {
-  if (order_.size() != boxes.size())
-  {
-    sort(boxes);
-    refit(boxes);
-    sorted_extent_ = total_extent();
-    return;
-  }
-  refit(boxes);
-  // Faces that were neighbours along the curve have drifted apart: a new order pays.
-  if (total_extent() > 1.5 * sorted_extent_)
-  {
-    sort(boxes);
-    refit(boxes);
-    sorted_extent_ = total_extent();
-  }
-}
-
-template<int dim>
-void BoxTree<dim>::sort(std::span<const Box> boxes)
-{
-  constexpr int bits = 60 / dim > 30 ? 30 : 60 / dim;
-  std::array<double, dim> low, high;
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
-  for (const Box &box : boxes)
-    for (int c = 0; c < dim; ++c)
-    {
-      low[c] = std::min(low[c], box[c] + box[c + dim]);
-      high[c] = std::max(high[c], box[c] + box[c + dim]);
-    }
-  double extent = 0;
-  for (int c = 0; c < dim; ++c)
-    extent = std::max(extent, high[c] - low[c]);
-  const double scale = extent > 0 ? (static_cast<double>(1U << bits) - 1) / extent : 0;
-  keys_.resize(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-  {
-    std::array<std::uint32_t, dim> cell;
-    for (int c = 0; c < dim; ++c)
-      cell[c] = static_cast<std::uint32_t>(scale * (boxes[i][c] + boxes[i][c + dim] - low[c]));
-    keys_[i] = {hilbert_position<dim, bits>(cell), static_cast<Index>(i)};
-  }
-  std::sort(keys_.begin(), keys_.end());
-  order_.resize(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    order_[i] = keys_[i].second;
+  order_ = curve_order<dim>(centres);
   level_begin_.assign(1, 0);
-  for (std::size_t count = boxes.size(); level_begin_.size() == 1 || count > 1;)
+  for (std::size_t count = order_.size(); level_begin_.size() == 1 || count > 1;)
   {
     count = (count + width - 1) / width;
     level_begin_.push_back(level_begin_.back() + count);
   }
   nodes_.resize(level_begin_.back());
+  ordered_extent_ = 0;
 }
 
 template<int dim>
@@ -77,49 +32,50 @@ void BoxTree<dim>::refit(std::span<const Box> boxes)
       low[c] = std::min(low[c], box[c]);
       high[c] = std::max(high[c], box[c + dim]);
     }
-  double extent = 0;
+  double size = 0;
   for (int c = 0; c < dim && !boxes.empty(); ++c)
   {
     origin_[c] = 0.5 * (low[c] + high[c]);
-    extent = std::max(extent, high[c] - low[c]);
+    size = std::max(size, high[c] - low[c]);
   }
-  slack_ = static_cast<float>(extent * 2.4e-7);
+  const auto slack = static_cast<float>(size * 2.4e-7);
 
   constexpr float far = std::numeric_limits<float>::infinity();
-  for (Node &node : nodes_)
+  for (std::size_t level = 0; level + 1 < level_begin_.size(); ++level)
+  {
+    Node &last = nodes_[level_begin_[level + 1] - 1]; // the only one that may have fewer than eight children
     for (int c = 0; c < dim; ++c)
     {
-      node.low[c].setConstant(far);
-      node.high[c].setConstant(-far);
+      last.low[c].setConstant(far);
+      last.high[c].setConstant(-far);
     }
+  }
   for (std::size_t i = 0; i < boxes.size(); ++i)
     for (int c = 0; c < dim; ++c)
     {
-      const Box &box = boxes[order_[i]];
-      nodes_[i / width].low[c][i % width] = static_cast<float>(box[c] - origin_[c]) - slack_;
-      nodes_[i / width].high[c][i % width] = static_cast<float>(box[c + dim] - origin_[c]) + slack_;
+      nodes_[i / width].low[c][i % width] = static_cast<float>(boxes[i][c] - origin_[c]) - slack;
+      nodes_[i / width].high[c][i % width] = static_cast<float>(boxes[i][c + dim] - origin_[c]) + slack;
     }
-  for (std::size_t level = 1; level + 1 < level_begin_.size(); ++level)
+  extent_ = 0;
+  for (std::size_t level = 1; level < level_begin_.size(); ++level)
     for (std::size_t child = level_begin_[level - 1]; child < level_begin_[level]; ++child)
     {
       const std::size_t i = child - level_begin_[level - 1];
-      Node &parent = nodes_[level_begin_[level] + i / width];
+      Node *parent = level + 1 < level_begin_.size() ? &nodes_[level_begin_[level] + i / width] : nullptr;
       for (int c = 0; c < dim; ++c)
       {
-        parent.low[c][i % width] = nodes_[child].low[c].minCoeff();
-        parent.high[c][i % width] = nodes_[child].high[c].maxCoeff();
+        const float child_low = nodes_[child].low[c].minCoeff(), child_high = nodes_[child].high[c].maxCoeff();
+        if (level == 1)
+          extent_ += child_high - child_low;
+        if (parent)
+        {
+          parent->low[c][i % width] = child_low;
+          parent->high[c][i % width] = child_high;
+        }
       }
     }
-}
-
-template<int dim>
-double BoxTree<dim>::total_extent() const
-{
-  double total = 0;
-  for (std::size_t n = level_begin_.size() > 1 ? level_begin_[1] : 0; n-- > 0;)
-    for (int c = 0; c < dim; ++c)
-      total += nodes_[n].high[c].maxCoeff() - nodes_[n].low[c].minCoeff();
-  return total;
+  if (ordered_extent_ == 0)
+    ordered_extent_ = extent_;
 }
 
 template class BoxTree<2>;

@@ -24,14 +24,22 @@ public:
 
   using Box = std::array<double, static_cast<std::size_t>(2 * dim)>; ///< lower corner, then upper corner
 
-  /// Sorts where there is no order yet or it has become poor, then refits.
-  void fill(std::span<const Box> boxes);
+  /// Sets the order: the faces with the given centres along the curve.
+  void order_by(std::span<const std::array<double, static_cast<std::size_t>(dim)>> centres);
 
-  [[nodiscard]] std::size_t n_boxes() const { return order_.size(); }
+  /// Faces in the order of the curve: the face in each slot.
+  [[nodiscard]] const std::vector<Index> &order() const { return order_; }
+
+  /// Takes in where the faces are now.
+  /// @param boxes slot by slot
+  void refit(std::span<const Box> boxes);
+
+  /// Whether faces that follow one another have drifted apart since they were ordered, so that a new order pays.
+  [[nodiscard]] bool is_poor() const { return extent_ > 1.5 * ordered_extent_; }
 
   /// Visits boxes nearest first within each node, as long as they come within the bound.
   /// @param squared_bound read anew after each visit, so that the visitor may shrink it
-  /// @param visit called with the box's index
+  /// @param visit called with the slot
   template<typename Visitor>
   void visit_within(const std::array<double, dim> &x, const double &squared_bound, Visitor &&visit) const;
 
@@ -49,17 +57,11 @@ private:
     std::uint32_t index;
   };
 
-  void sort(std::span<const Box> boxes);
-  void refit(std::span<const Box> boxes);
-  [[nodiscard]] double total_extent() const;
-
   std::array<double, dim> origin_{};
-  float slack_ = 0;
   std::vector<Index> order_;
-  std::vector<Node> nodes_;              ///< level by level, the leaves first
-  std::vector<std::size_t> level_begin_; ///< in nodes_
-  std::vector<std::pair<std::uint64_t, Index>> keys_;
-  double sorted_extent_ = 0;
+  std::vector<Node> nodes_;                ///< level by level, the leaves first
+  std::vector<std::size_t> level_begin_;   ///< in nodes_
+  double extent_ = 0, ordered_extent_ = 0; ///< of the leaves, summed
 };
 } // namespace amontons
 

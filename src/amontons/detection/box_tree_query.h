@@ -28,25 +28,30 @@ void BoxTree<dim>::visit_within(const std::array<double, dim> &x, const double &
     Floats distance = Floats::Zero();
     for (int c = 0; c < dim; ++c)
       distance += (node.low[c] - point[c]).max(point[c] - node.high[c]).max(0.0F).square();
-    // Those within the bound, farthest first, so that the nearest comes off the stack first.
-    std::array<Entry, width> found;
+    std::array<Entry, width + 1> found;
     int n_found = 0;
     const float bound = margin * static_cast<float>(squared_bound);
-    for (std::uint32_t i = 0; i < width; ++i)
-      if (distance[i] <= bound)
-      {
-        int place = n_found++;
-        for (; place > 0 && found[place - 1].squared_distance < distance[i]; --place)
-          found[place] = found[place - 1];
-        found[place] = {distance[i], entry.level - 1, entry.index * width + i};
-      }
+    for (std::uint32_t i = 0; i < width; ++i) // no branch: it could not be foreseen
+    {
+      found[n_found] = {distance[i], entry.level - 1, entry.index * width + i};
+      n_found += distance[i] <= bound;
+    }
+    // Farthest first, so that the nearest comes off the stack first.
+    for (int i = 1; i < n_found; ++i)
+    {
+      const Entry moved = found[i];
+      int place = i;
+      for (; place > 0 && found[place - 1].squared_distance < moved.squared_distance; --place)
+        found[place] = found[place - 1];
+      found[place] = moved;
+    }
     if (entry.level > 0)
       for (int i = 0; i < n_found; ++i)
         stack[n_stacked++] = found[i];
     else
       for (int i = n_found; i-- > 0;)
         if (found[i].squared_distance <= margin * static_cast<float>(squared_bound))
-          visit(order_[found[i].index]);
+          visit(static_cast<Index>(found[i].index));
   }
 }
 } // namespace amontons

@@ -33,11 +33,12 @@ public:
     }
   }
 
-  void within(const Target &target, const Query &query, Index node, std::vector<Candidate> &result) override
+  void within(const Target &target, const Query &query, Index node, double radius,
+              std::vector<Candidate> &result) override
   {
     const Eigen::Vector3d x = point_of(query.x, target.surface().dim, node);
     for (Index f = 0; f < target.surface().n_faces(); ++f)
-      if (const Candidate candidate = on(f, x); candidate.squared_distance <= query.w * query.w)
+      if (const Candidate candidate = on(f, x); candidate.squared_distance <= radius * radius)
         result.push_back(candidate);
   }
 

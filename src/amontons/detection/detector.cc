@@ -82,6 +82,7 @@ private:
   Vector3d impactor_normal(Index node) const;
   Pair pair_of(Index node);
   Pair next_best(Index node, const Vector3d &x);
+  Pair best_of_considered(Index node, const Vector3d &x) const;
   void summarise();
 
   DetectionOptions options_;
@@ -200,14 +201,27 @@ Pair SurfaceDetector::pair_of(Index node)
   return judge(feature, node) == Verdict::taken ? feature.pair : next_best(node, x);
 }
 
-// The closest point is not one to pair with: the next local minimum of the distance that is. Once a node is seen to
-// have come through a thin body, only points seen from inside count.
+// The closest point is not one to pair with: the next local minimum of the distance that is, sought in growing balls.
 Pair SurfaceDetector::next_best(Index node, const Vector3d &x)
 {
-  considered_.clear();
-  search_->within(target_, query_, node, considered_);
-  std::sort(considered_.begin(), considered_.end(),
-            [this](const Candidate &a, const Candidate &b) { return comes_before(target_.surface(), a, b); });
+  Pair pair;
+  for (double radius = 2 * std::sqrt(candidates_[node].squared_distance);; radius *= 2)
+  {
+    const double bounded = std::clamp(radius, 1e-3 * distance_.w, distance_.w);
+    considered_.clear();
+    search_->within(target_, query_, node, bounded, considered_);
+    std::sort(considered_.begin(), considered_.end(),
+              [this](const Candidate &a, const Candidate &b) { return comes_before(target_.surface(), a, b); });
+    pair = best_of_considered(node, x);
+    if (pair.kind != PairKind::none || bounded == distance_.w)
+      return pair;
+    radius = bounded;
+  }
+}
+
+// Once a node is seen to have come through a thin body, only points seen from inside count.
+Pair SurfaceDetector::best_of_considered(Index node, const Vector3d &x) const
+{
   bool came_through = false;
   Pair none;
   none.reason = NoPairReason::past_end;

@@ -17,7 +17,8 @@ class NearestNodeSearch : public Search
 public:
   void fill(const Target &target, const Query &query) override;
   void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) override;
-  void within(const Target &target, const Query &query, Index node, std::vector<Candidate> &result) override;
+  void within(const Target &target, const Query &query, Index node, double radius,
+              std::vector<Candidate> &result) override;
 
 private:
   struct SortedNode
@@ -166,13 +167,15 @@ void NearestNodeSearch::closest(const Target &target, const Query &query, std::s
   }
 }
 
-void NearestNodeSearch::within(const Target &target, const Query &query, Index node, std::vector<Candidate> &result)
+void NearestNodeSearch::within(const Target &target, const Query &query, Index node, double radius,
+                               std::vector<Candidate> &result)
 {
   if (nearest_[node] < 0)
     return;
   const Vector3d x = point_of(query.x, dim_, node);
   for (const Index f : target.surface().faces_of_node(nearest_[node]))
-    result.push_back(candidate_on(target, f, x));
+    if (const Candidate candidate = candidate_on(target, f, x); candidate.squared_distance <= radius * radius)
+      result.push_back(candidate);
 }
 } // namespace
 

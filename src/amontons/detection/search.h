@@ -32,8 +32,10 @@ public:
   /// @param timers the phases "nearest" and, where it is a step of its own, "projection"
   virtual void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) = 0;
 
-  /// Appends every face that the method considers for this node and that comes within w of it, with its closest point.
-  virtual void within(const Target &target, const Query &query, Index node, std::vector<Candidate> &result) = 0;
+  /// Appends every face that the method considers for this node and that comes within `radius` of it, with its closest
+  /// point.
+  virtual void within(const Target &target, const Query &query, Index node, double radius,
+                      std::vector<Candidate> &result) = 0;
 };
 
 std::unique_ptr<Search> make_brute_search();

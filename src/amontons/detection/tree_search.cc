@@ -17,24 +17,14 @@ public:
   void fill(const Target &target, const Query &) override
   {
     const Surface &surface = target.surface();
-    boxes_.resize(surface.face_ids.size());
-    for (Index f = 0; f < surface.n_faces(); ++f)
+    if (tree_.order().size() != surface.face_ids.size())
+      order(target);
+    pack(target);
+    if (tree_.is_poor())
     {
-      auto &box = boxes_[f];
-      for (int c = 0; c < dim; ++c)
-      {
-        box[c] = std::numeric_limits<double>::infinity();
-        box[c + dim] = -box[c];
-      }
-      for (const Index node : surface.face(f))
-        for (int c = 0; c < dim; ++c)
-        {
-          const double x = target.coordinates()[static_cast<std::size_t>(node) * dim + c];
-          box[c] = std::min(box[c], x);
-          box[c + dim] = std::max(box[c + dim], x);
-        }
+      order(target);
+      pack(target);
     }
-    tree_.fill(boxes_);
   }
 
   void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) override
@@ -48,12 +38,12 @@ public:
       Candidate best{-1, {0, 0}, query.w * query.w};
       const Index hint = result[node].face >= 0 ? result[node].face : last;
       if (hint >= 0)
-        consider(target, surface, hint, x, best);
+        consider(surface, candidate_on(target, hint, x), best);
       tree_.visit_within(as_array(x), best.squared_distance,
-                         [&](Index f)
+                         [&](Index slot)
                          {
-                           if (f != hint)
-                             consider(target, surface, f, x, best);
+                           if (const Index f = tree_.order()[slot]; f != hint)
+                             consider(surface, candidate_in(slot, f, x), best);
                          });
       result[node] = best;
       if (best.face >= 0)
@@ -61,14 +51,14 @@ public:
     }
   }
 
-  void within(const Target &target, const Query &query, Index node, std::vector<Candidate> &result) override
+  void within(const Target &, const Query &query, Index node, double radius, std::vector<Candidate> &result) override
   {
     const Vector3d x = point_of(query.x, dim, node);
-    const double bound = query.w * query.w;
+    const double bound = radius * radius;
     tree_.visit_within(as_array(x), bound,
-                       [&](Index f)
+                       [&](Index slot)
                        {
-                         if (const Candidate candidate = candidate_on(target, f, x);
+                         if (const Candidate candidate = candidate_in(slot, tree_.order()[slot], x);
                              candidate.squared_distance <= bound)
                            result.push_back(candidate);
                        });
@@ -83,18 +73,75 @@ private:
     return result;
   }
 
-  static void consider(const Target &target, const Surface &surface, Index f, const Vector3d &x, Candidate &best)
+  static void consider(const Surface &surface, const Candidate &candidate, Candidate &best)
   {
-    const Candidate candidate = candidate_on(target, f, x);
     if (candidate.squared_distance <= best.squared_distance &&
         (best.face < 0 || comes_before(surface, candidate, best)))
       best = candidate;
   }
 
+  void order(const Target &target)
+  {
+    std::vector<std::array<double, dim>> centres(target.surface().face_ids.size());
+    for (std::size_t f = 0; f < centres.size(); ++f)
+    {
+      const FaceCoordinates face = target.face(static_cast<Index>(f));
+      Vector3d sum = Vector3d::Zero();
+      for (int k = 0; k < face.n_nodes; ++k)
+        sum += face.x[k];
+      centres[f] = as_array(sum / face.n_nodes);
+    }
+    tree_.order_by(centres);
+  }
+
+  // Copies the faces' coordinates in the order of the tree, so that faces visited one after another lie so in memory.
+  void pack(const Target &target)
+  {
+    faces_.resize(tree_.order().size());
+    boxes_.resize(faces_.size());
+    for (std::size_t slot = 0; slot < faces_.size(); ++slot)
+    {
+      const FaceCoordinates face = target.face(tree_.order()[slot]);
+      Vector3d low = face.x[0], high = face.x[0];
+      for (int k = 0; k < face.n_nodes; ++k)
+      {
+        faces_[slot][k] = as_array(face.x[k]);
+        low = low.cwiseMin(face.x[k]);
+        high = high.cwiseMax(face.x[k]);
+      }
+      if (dim == 3 && face.n_nodes == 3)
+        faces_[slot][3] = no_node;
+      for (int c = 0; c < dim; ++c)
+      {
+        boxes_[slot][c] = low[c];
+        boxes_[slot][c + dim] = high[c];
+      }
+    }
+    tree_.refit(boxes_);
+  }
+
+  [[nodiscard]] Candidate candidate_in(Index slot, Index f, const Vector3d &x) const
+  {
+    FaceCoordinates face;
+    face.n_nodes = dim == 2 ? 2 : faces_[slot][max_nodes - 1] == no_node ? 3 : 4;
+    for (int k = 0; k < face.n_nodes; ++k)
+      face.x[k] = Vector3d(faces_[slot][k][0], faces_[slot][k][1], dim == 3 ? faces_[slot][k][dim - 1] : 0.0);
+    const ClosestPoint closest = closest_point(face, x);
+    return {f, closest.xi, closest.squared_distance};
+  }
+
+  static constexpr int max_nodes = dim == 2 ? 2 : 4;
+  static constexpr std::array<double, dim> no_node = []
+  {
+    std::array<double, dim> result;
+    result.fill(std::numeric_limits<double>::infinity());
+    return result;
+  }();
+
+  std::vector<std::array<std::array<double, dim>, max_nodes>> faces_; ///< nodes' coordinates, slot by slot
   std::vector<typename BoxTree<dim>::Box> boxes_;
   BoxTree<dim> tree_;
 };
-
 } // namespace
 
 std::unique_ptr<Search> make_tree_search(int dim)

@@ -42,12 +42,15 @@ ClosestPoint at(const FaceCoordinates &face, LocalPoint xi, const Vector3d &x)
   return result;
 }
 
-ClosestPoint closest_on_border(const FaceCoordinates &face, const Vector3d &x)
+// @param edges which to look at
+ClosestPoint closest_on_edges(const FaceCoordinates &face, const Vector3d &x, std::array<bool, 4> edges)
 {
   ClosestPoint best;
   best.squared_distance = INFINITY;
   for (std::size_t k = 0; k < 4; ++k)
   {
+    if (!edges[k])
+      continue;
     const Vector3d &a = face.x[k];
     const Vector3d direction = face.x[(k + 1) % 4] - a;
     const double length2 = direction.squaredNorm();
@@ -57,6 +60,11 @@ ClosestPoint closest_on_border(const FaceCoordinates &face, const Vector3d &x)
       best = candidate;
   }
   return best;
+}
+
+ClosestPoint closest_on_border(const FaceCoordinates &face, const Vector3d &x)
+{
+  return closest_on_edges(face, x, {true, true, true, true});
 }
 
 // Whether no direction into the face shortens the distance from a point of its border.
@@ -224,8 +232,15 @@ ClosestPoint closest_point_on_quadrilateral(const FaceCoordinates &face, const V
   if (!convex_over_face(Bilinear(face), x))
     return closest_point_by_quintic(face, x);
   LocalPoint xi{0.5, 0.5};
-  if (newton_on_quadrilateral(face, x, xi) && in_face(4, xi, 0))
-    return at(face, xi, x);
+  if (newton_on_quadrilateral(face, x, xi))
+  {
+    if (in_face(4, xi, 0))
+      return at(face, xi, x);
+    // Mostly the edges that the extended projection lies beyond; the distance being convex, that can be checked.
+    const ClosestPoint border = closest_on_edges(face, x, {xi[1]<0, xi[0]> 1, xi[1] > 1, xi[0] < 0});
+    if (is_minimum_on_face(face, border, x))
+      return border;
+  }
   const ClosestPoint border = closest_on_border(face, x);
   return is_minimum_on_face(face, border, x) ? border : closest_point_by_quintic(face, x);
 }
