@@ -58,7 +58,7 @@ JetPoint sum(const std::vector<Jet> &weights, const std::vector<JetPoint> &point
 std::array<Jet, 2> solve_projection(int n_xi, const Interpolation &interpolation, const JetPoint &x,
                                     const std::vector<JetPoint> &face, std::array<Jet, 2> xi)
 {
-  for (int step = 0; step < 40; ++step)
+  for (int step = 0; step < 14; ++step)
   {
     const JetPoint offset = x - sum(interpolation.at(xi), face);
     std::array<JetPoint, 2> base;
