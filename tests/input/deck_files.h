@@ -1,40 +1,14 @@
 #pragma once
 #include "amontons/input/deck.h"
+#include "temporary_folder.h"
 
 #include <filesystem>
-#include <fstream>
-#include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace amontons::test
 {
-/// A folder of its own, gone with the object.
-class TemporaryFolder
-{
-public:
-  TemporaryFolder()
-  {
-    std::random_device random;
-    do
-      path_ = std::filesystem::temp_directory_path() / ("amontons-test-" + std::to_string(random()));
-    while (!std::filesystem::create_directory(path_));
-  }
-  TemporaryFolder(const TemporaryFolder &) = delete;
-  TemporaryFolder &operator=(const TemporaryFolder &) = delete;
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-
-  std::filesystem::path write(const std::string &name, const std::string &text) const
-  {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
-  }
-  [[nodiscard]] const std::filesystem::path &path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
-};
-
 /// A deck that is right, every line of it counted by the tests.
 inline const std::string plane_deck = R"(title: A punch
 mesh: {file: mesh.msh, kinematics: plane-strain}

@@ -97,6 +97,12 @@ void check_copies(std::size_t n_listed, std::size_t n_unique, int dim, int entit
                              std::to_string(dim) + ") belong to different physical groups; give each group its own " +
                              "elementary tag, or save the mesh as .msh 4.1");
 }
+
+void start_silently(int n_arguments, char **arguments)
+{
+  gmsh::initialize(n_arguments, arguments, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+}
 } // namespace
 
 GmshSession::GmshSession(const std::map<std::string, double> &parameters)
@@ -112,8 +118,11 @@ GmshSession::GmshSession(const std::map<std::string, double> &parameters)
   for (std::string &word : words)
     arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  gmsh::initialize(static_cast<int>(words.size()), arguments.data(), false);
-  gmsh::option::setNumber("General.Terminal", 0);
+  // Gmsh keeps the variables of a .geo beyond its own end; only clear() forgets them.
+  start_silently(0, nullptr);
+  gmsh::clear();
+  gmsh::finalize();
+  start_silently(static_cast<int>(words.size()), arguments.data());
 }
 
 GmshSession::~GmshSession()
@@ -123,7 +132,8 @@ GmshSession::~GmshSession()
 
 void GmshSession::open(const std::string &file)
 {
-  translated([&] { gmsh::open(file); });
+  // Not gmsh::open(), which brings back the parameters of earlier sessions.
+  translated([&] { gmsh::merge(file); });
   repeats_elements_ = repeats_elements(file);
 }
 
