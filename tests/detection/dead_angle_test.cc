@@ -1,7 +1,7 @@
 // The table of dead angles (THEORY.md section 4, step 4): what is returned where no face, or more than one, holds the
 // node's projection. Every case is run with all three methods, with the faces' ids in both orders where they tie.
 #include "amontons/detection/detector.h"
-#include "detection/surfaces.h"
+#include "surface/surfaces.h"
 
 #include <gtest/gtest.h>
 

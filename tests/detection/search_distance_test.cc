@@ -2,7 +2,7 @@
 
 #include "amontons/base/error.h"
 #include "amontons/detection/detector.h"
-#include "detection/surfaces.h"
+#include "surface/surfaces.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "amontons/surface/surface.h"
 
-#include "detection/surfaces.h"
+#include "surface/surfaces.h"
 
 #include <gtest/gtest.h>
 

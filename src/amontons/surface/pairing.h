@@ -23,7 +23,7 @@ enum class NoPairReason : unsigned char
   paired,
   outside_box, ///< outside the target's box grown by w
   too_far,     ///< no target point within w
-  behind,      ///< only faces seen from inside their body, deeper than w allows
+  behind,      ///< only faces seen from inside their body and facing as the impactor does: no way out within w
   past_end     ///< past the end of a target that does not extend that far
 };
 
