@@ -78,6 +78,57 @@ void BoxTree<dim>::refit(std::span<const Box> boxes)
     ordered_extent_ = extent_;
 }
 
+template<int dim>
+typename BoxTree<dim>::FloatPoint BoxTree<dim>::relative(const double *x) const
+{
+  FloatPoint result;
+  for (std::size_t c = 0; c < result.size(); ++c)
+    result[c] = static_cast<float>(x[c] - origin_[c]);
+  return result;
+}
+
+template<int dim>
+bool BoxTree<dim>::collect(const Box &group, double squared_bound, Front &front) const
+{
+  front.n_leaves_ = 0;
+  if (top_level() < 1) // one leaf, or none: nothing to share
+    return false;
+  const FloatPoint low = relative(group.data()), high = relative(group.data() + dim);
+  const float bound = rounded_up(squared_bound);
+  for (Node &block : front.boxes_)
+    for (std::size_t c = 0; c < low.size(); ++c)
+    {
+      block.low[c].setConstant(std::numeric_limits<float>::infinity());
+      block.high[c].setConstant(-std::numeric_limits<float>::infinity());
+    }
+  std::array<Entry, static_cast<std::size_t>(width * 16)> stack;
+  int n_stacked = 1;
+  stack[0] = {0, top_level(), 0};
+  while (n_stacked > 0)
+  {
+    const Entry entry = stack[--n_stacked];
+    const Node &parent = node(entry);
+    const int first = n_stacked;
+    append(squared_distances(parent, low, high), bound, entry.level - 1, entry.index * width, stack.data(), n_stacked);
+    if (entry.level > 1)
+      continue;
+    if (front.n_leaves_ + n_stacked - first > Front::n_blocks * width)
+      return false;
+    for (; n_stacked > first; --n_stacked)
+    {
+      const std::uint32_t leaf = stack[n_stacked - 1].index;
+      Node &block = front.boxes_[front.n_leaves_ / width];
+      for (std::size_t c = 0; c < low.size(); ++c)
+      {
+        block.low[c][front.n_leaves_ % width] = parent.low[c][leaf % width];
+        block.high[c][front.n_leaves_ % width] = parent.high[c][leaf % width];
+      }
+      front.leaves_[front.n_leaves_++] = leaf;
+    }
+  }
+  return true;
+}
+
 template class BoxTree<2>;
 template class BoxTree<3>;
 } // namespace amontons

@@ -30,32 +30,17 @@ public:
   void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) override
   {
     const auto time = timers.measure("nearest");
-    const Surface &surface = target.surface();
-    Index last = -1; // nodes that follow one another are often close
-    for (const Index node : query.nodes)
-    {
-      const Vector3d x = point_of(query.x, dim, node);
-      Candidate best{-1, {0, 0}, query.w * query.w};
-      const Index hint = result[node].face >= 0 ? result[node].face : last;
-      if (hint >= 0)
-        consider(surface, candidate_on(target, hint, x), best);
-      tree_.visit_within(as_array(x), best.squared_distance,
-                         [&](Index slot)
-                         {
-                           if (const Index f = tree_.order()[slot]; f != hint)
-                             consider(surface, candidate_in(slot, f, x), best);
-                         });
-      result[node] = best;
-      if (best.face >= 0)
-        last = best.face;
-    }
+    // Nodes that follow one another are mostly close: they share the way down the tree.
+    for (std::size_t first = 0; first < query.nodes.size(); first += group_size)
+      closest_of_group(target, query, query.nodes.subspan(first, std::min(group_size, query.nodes.size() - first)),
+                       result);
   }
 
   void within(const Target &, const Query &query, Index node, double radius, std::vector<Candidate> &result) override
   {
     const Vector3d x = point_of(query.x, dim, node);
     const double bound = radius * radius;
-    tree_.visit_within(as_array(x), bound,
+    tree_.visit_within(as_array(x), bound, nullptr,
                        [&](Index slot)
                        {
                          if (const Candidate candidate = candidate_in(slot, tree_.order()[slot], x);
@@ -65,6 +50,45 @@ public:
   }
 
 private:
+  static constexpr std::size_t group_size = 16;
+
+  void closest_of_group(const Target &target, const Query &query, std::span<const Index> nodes,
+                        std::span<Candidate> result)
+  {
+    typename BoxTree<dim>::Box box;
+    std::fill_n(box.begin(), dim, std::numeric_limits<double>::infinity());
+    std::fill_n(box.begin() + dim, dim, -std::numeric_limits<double>::infinity());
+    double largest = 0;
+    for (const Index node : nodes)
+    {
+      const Vector3d x = point_of(query.x, dim, node);
+      for (int c = 0; c < dim; ++c)
+      {
+        box[c] = std::min(box[c], x[c]);
+        box[c + dim] = std::max(box[c + dim], x[c]);
+      }
+      // The face of the last detection bounds the distance.
+      Candidate best{-1, {0, 0}, query.w * query.w};
+      if (result[node].face >= 0)
+        consider(target.surface(), candidate_on(target, result[node].face, x), best);
+      result[node] = best;
+      largest = std::max(largest, best.squared_distance);
+    }
+    const bool shared = tree_.collect(box, largest, front_);
+    for (const Index node : nodes)
+    {
+      const Vector3d x = point_of(query.x, dim, node);
+      Candidate &best = result[node];
+      const Index known = best.face;
+      tree_.visit_within(as_array(x), best.squared_distance, shared ? &front_ : nullptr,
+                         [&](Index slot)
+                         {
+                           if (const Index f = tree_.order()[slot]; f != known)
+                             consider(target.surface(), candidate_in(slot, f, x), best);
+                         });
+    }
+  }
+
   static std::array<double, dim> as_array(const Vector3d &x)
   {
     std::array<double, dim> result;
@@ -141,6 +165,7 @@ private:
   std::vector<std::array<std::array<double, dim>, max_nodes>> faces_; ///< nodes' coordinates, slot by slot
   std::vector<typename BoxTree<dim>::Box> boxes_;
   BoxTree<dim> tree_;
+  typename BoxTree<dim>::Front front_;
 };
 } // namespace
 
