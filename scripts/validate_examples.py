@@ -85,13 +85,16 @@ def sphere_with_friction(finished):
     return [Figure("c/a", stick_radius_by_traction(nodes, 0.2) / hertz_fit(nodes, 0.1, 0.4)[0], 0.69828, 0.02)]
 
 
-def hertz_cylinder(finished):
+def hertz_cylinder(bound):
     """Cylinder of radius 1, E = 1, nu = 0.3 on a block, E = 2, nu = 0.25, at the computed force (Johnson 1985, 4.43 to 4.45)."""
-    force = 2 * finished.contact()["normal_force"][1]  # the model is one half
-    modulus = 1 / ((1 - 0.3**2) / 1 + (1 - 0.25**2) / 2)
-    width, _ = hertz_fit(finished.nodes())
-    return [Figure("peak pressure", finished.contact()["max_pressure"], math.sqrt(force * modulus / math.pi), 0.01),
-            Figure("half-width", width, math.sqrt(4 * force / (math.pi * modulus)), 0.01)]
+    def figures(finished):
+        force = 2 * finished.contact()["normal_force"][1]  # the model is one half
+        modulus = 1 / ((1 - 0.3**2) / 1 + (1 - 0.25**2) / 2)
+        width, _ = hertz_fit(finished.nodes())
+        return [Figure("peak pressure", finished.contact()["max_pressure"],
+                       math.sqrt(force * modulus / math.pi), bound),
+                Figure("half-width", width, math.sqrt(4 * force / (math.pi * modulus)), bound)]
+    return figures
 
 
 def punch(finished):
@@ -124,11 +127,16 @@ CASES = [
     ("patch-tests/plane, non-matching", "patch-tests/plane-non-matching.yaml", [], patch(None)),
     ("patch-tests/space, matching", "patch-tests/space-matching.yaml", [], patch(1e-10)),
     ("patch-tests/space, non-matching", "patch-tests/space-non-matching.yaml", [], patch(None)),
-    ("press-fit/pressure, 64:64", "press-fit/press-fit.yaml", [], rings(COMPOSITE, 0.005)),
-    ("press-fit/pressure, 64:48", "press-fit/press-fit.yaml", ["mesh.parameters.n_outer=48"], rings(COMPOSITE, None)),
-    ("press-fit/pressure, 64:40", "press-fit/press-fit.yaml", ["mesh.parameters.n_outer=40"], rings(COMPOSITE, None)),
+    ("press-fit/pressure, 192:192", "press-fit/press-fit.yaml", [], rings(COMPOSITE, 0.005)),
+    ("press-fit/pressure, 64:64", "press-fit/press-fit.yaml",
+     ["mesh.parameters.n_inner=64", "mesh.parameters.n_outer=64"], rings(COMPOSITE, None)),
+    ("press-fit/pressure, 192:144", "press-fit/press-fit.yaml", ["mesh.parameters.n_outer=144"],
+     rings(COMPOSITE, None)),
+    ("press-fit/pressure, 192:96", "press-fit/press-fit.yaml", ["mesh.parameters.n_outer=96"], rings(COMPOSITE, None)),
     ("press-fit/interference", "press-fit/interference.yaml", [], rings(SHRUNK, 0.01)),
-    ("hertz-cylinder", "hertz-cylinder/hertz-cylinder.yaml", [], hertz_cylinder),
+    ("hertz-cylinder", "hertz-cylinder/hertz-cylinder.yaml", [], hertz_cylinder(0.01)),
+    ("hertz-cylinder, 60:45", "hertz-cylinder/hertz-cylinder.yaml", ["mesh.parameters.n_block=45"],
+     hertz_cylinder(None)),
     ("hertz-sphere/frictionless", "hertz-sphere/hertz-sphere.yaml", [], hertz_sphere),
     ("hertz-sphere/friction", "hertz-sphere/friction.yaml", [], sphere_with_friction),
     ("punch", "punch/punch.yaml", [], punch),

@@ -5,7 +5,7 @@ DefineConstant[
   R = {1, Name "R"},                     // radius of the cylinder
   b = {0.02, Name "b"},                  // contact half-width expected
   n_cylinder = {60, Name "n_cylinder"},  // cells on [0, b] of the cylinder
-  n_block = {45, Name "n_block"},        // cells on [0, b] of the block
+  n_block = {30, Name "n_block"},        // cells on [0, b] of the block
   growth = {1.12, Name "growth"}         // ratio of the lengths of neighbouring cells outside the fine blocks
 ];
 

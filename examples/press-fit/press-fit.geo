@@ -6,8 +6,8 @@ DefineConstant[
   r_fit = {0.6, Name "r_fit"},
   r_outer = {1, Name "r_outer"},
   interference = {0, Name "interference"}, // radial, at rest
-  n_inner = {64, Name "n_inner"},          // cells along the quarter circle, inner ring
-  n_outer = {64, Name "n_outer"}           // cells along the quarter circle, outer ring
+  n_inner = {192, Name "n_inner"},          // cells along the quarter circle, inner ring
+  n_outer = {192, Name "n_outer"}           // cells along the quarter circle, outer ring
 ];
 
 // Cells are as long in the radius as along the middle circle of the ring.
