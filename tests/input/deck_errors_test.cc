@@ -145,9 +145,7 @@ const BadDeck conflicts[]{
     {"PressureOnRigid", "displacement: {x: 0, y: \"-0.01*t\"}", "pressure: 1",
      "deck.yaml:19:15: boundary.1.pressure: cannot act on the rigid body 'punch'; give its force or its displacement"},
     {"TractionOnWholeBody", "region: block_bottom\n    fix: [x, y]", "region: block\n    traction: {x: 1}",
-     "deck.yaml:17:15: boundary.0.traction: acts on a group of faces or points, and 'block' is a deformable body"},
-    {"BodyForceOnFace", "fix: [x, y]", "body-force: {y: 1}",
-     "deck.yaml:17:17: boundary.0.body-force: acts on a body, and 'block_bottom' is none of the deck's"},
+     "deck.yaml:17:15: boundary.0.traction: acts on a group of faces or points, and 'block' is the cells of a body"},
     {"ElasticInFiniteStrain", "loading", "strain: finite\nloading",
      "deck.yaml:6:21: bodies.0.material.law: linear-elastic holds in strain: small only; use neo-hookean with strain: "
      "finite"},

@@ -16,15 +16,15 @@ const BodyOptions *rigid_body(const Deck &deck, const std::string &region)
   return nullptr;
 }
 
-const BodyOptions *deformable_body(const Deck &deck, const std::string &region)
+bool is_region_of_deformable_body(const Deck &deck, const std::string &region)
 {
-  for (const BodyOptions &body : deck.bodies)
-    if (body.material.law != MaterialLaw::rigid && (body.name == region || body.region == region))
-      return &body;
-  return nullptr;
+  return std::any_of(deck.bodies.begin(), deck.bodies.end(),
+                     [&](const BodyOptions &body)
+                     { return body.material.law != MaterialLaw::rigid && body.region == region; });
 }
 
-/// Keys that a rigid body, or a deformable region, does not take.
+/// Keys that a rigid body, or a deformable region, does not take, as far as the deck tells: what a name of the mesh
+/// means is seen with the mesh.
 void check_suits(const Value &entry, const Deck &deck)
 {
   const Value &region = *entry.find("region");
@@ -44,11 +44,9 @@ void check_suits(const Value &entry, const Deck &deck)
     refuse({"rotation", "moment"}, "is for rigid bodies, and '" + region.text + "' is none" +
                                        did_you_mean(region.text, names) +
                                        (names.empty() ? "; the deck has none" : "; rigid bodies: " + joined(names)));
-    if (deformable_body(deck, region.text))
+    if (is_region_of_deformable_body(deck, region.text))
       refuse({"traction", "pressure", "spring", "force"},
-             "acts on a group of faces or points, and '" + region.text + "' is a deformable body");
-    else
-      refuse({"body-force"}, "acts on a body, and '" + region.text + "' is none of the deck's");
+             "acts on a group of faces or points, and '" + region.text + "' is the cells of a body");
     return;
   }
   refuse({"traction", "pressure", "spring", "body-force"},

@@ -71,8 +71,7 @@ void read_fix(const Value &value, BoundaryOptions &out, ReadContext &context)
 Section<BoundaryOptions> boundary_keys()
 {
   Keys keys;
-  keys.text("region", &BoundaryOptions::region, required,
-            "physical group (of faces, edges or points) or a body's name");
+  keys.text("region", &BoundaryOptions::region, required, "physical group or a body's name");
   keys.key(Keys::row("fix", "list of components", "", "x, y; z in 3D", otherwise("none"), "",
                      "components of the displacement held at zero", read_fix));
   add_components(keys, "displacement", &BoundaryOptions::displacement, "length", false,
@@ -92,7 +91,7 @@ Section<BoundaryOptions> boundary_keys()
   add_components(keys, "moment", &BoundaryOptions::moment, "force times length", true,
                  "rigid bodies: moment, which frees that rotation");
   add_components(keys, "body-force", &BoundaryOptions::body_force, "force per reference volume", false,
-                 "on a body's volume");
+                 "on the volume of a body or of a group of cells");
   keys.check(
       [](const Value &value, BoundaryOptions &out, ReadContext &)
       {
