@@ -3,6 +3,7 @@
 
 #include "amontons/algebra/session.h"
 #include "amontons/base/error.h"
+#include "amontons/base/suggestion.h"
 #include "amontons/input/deck.h"
 #include "amontons/output/version.h"
 #include "amontons/parallel/log.h"
@@ -23,6 +24,10 @@ struct CommandLine
   DeckArguments arguments;
   std::function<ExitCode(const Communicator &, spdlog::logger &)> command;
 };
+
+const std::map<std::string, DetectionMethod> detection_methods{{"exact", DetectionMethod::exact},
+                                                               {"nearest-node", DetectionMethod::nearest_node},
+                                                               {"brute", DetectionMethod::brute}};
 
 CLI::App *add_deck_command(CLI::App &app, const std::string &name, const std::string &help, DeckArguments &arguments)
 {
@@ -47,13 +52,12 @@ void add_commands(CLI::App &app, CommandLine &line)
   add_deck_command(app, "check", "tell what can be known before solving", arguments)
       ->callback([&] { line.command = [&](const auto &, auto &log) { return check_deck(arguments, log); }; });
 
-  static const std::map<std::string, DetectionMethod> methods{{"exact", DetectionMethod::exact},
-                                                              {"nearest-node", DetectionMethod::nearest_node},
-                                                              {"brute", DetectionMethod::brute}};
   CLI::App *detect = add_deck_command(app, "detect", "detect contact once and tell statistics", arguments);
-  detect->add_option("--method", arguments.method, "exact, nearest-node or brute [the deck's]")
-      ->transform(CLI::Transformer(methods))
-      ->check(CLI::IsMember(methods))
+  detect
+      ->add_option_function<std::string>(
+          "--method", [&](const std::string &name) { arguments.method = detection_methods.at(name); },
+          "exact, nearest-node or brute [the deck's]")
+      ->check(CLI::IsMember(detection_methods))
       ->type_name("METHOD");
   detect->add_flag("--json", arguments.json, "as JSON");
   detect->callback([&] { line.command = [&](const auto &, auto &log) { return detect_deck(arguments, log); }; });
@@ -82,6 +86,23 @@ void add_commands(CLI::App &app, CommandLine &line)
           });
 }
 
+/// @throws UserError for a first word that is no command; the parser itself would only say that one is required
+void check_command_name(const CLI::App &app, int argc, char **argv)
+{
+  if (argc < 2 || argv[1][0] == '-')
+    return;
+  std::vector<std::string> names;
+  for (const CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; }))
+  {
+    if (command->get_name() == argv[1])
+      return;
+    if (!command->get_group().empty())
+      names.push_back(command->get_name());
+  }
+  throw UserError("no command '" + std::string(argv[1]) + "'" + did_you_mean(argv[1], names) + "; there are " +
+                  joined(names));
+}
+
 ExitCode execute(int argc, char **argv, const Communicator &world, spdlog::logger &log)
 {
   CLI::App app("Frictional contact between deformable bodies by finite elements.", "amontons");
@@ -89,6 +110,7 @@ ExitCode execute(int argc, char **argv, const Communicator &world, spdlog::logge
   app.footer("Exit codes: 0 solved, 2 bad deck, mesh or command line, 3 not converged, 4 internal error.");
   CommandLine line;
   add_commands(app, line);
+  check_command_name(app, argc, argv);
   try
   {
     app.parse(argc, argv);

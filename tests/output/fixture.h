@@ -1,5 +1,6 @@
 #pragma once
 #include "amontons/solution/results.h"
+#include "temporary_folder.h"
 
 #include <filesystem>
 #include <fstream>
@@ -72,23 +73,7 @@ inline Example::Example()
   state.reactions = {{"top", {0.5, -2, 0}}};
 }
 
-/// An empty folder that lives as long as the test.
-class TemporaryFolder
-{
-public:
-  TemporaryFolder()
-  {
-    std::string pattern = (std::filesystem::temp_directory_path() / "amontons-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  TemporaryFolder(const TemporaryFolder &) = delete;
-  TemporaryFolder &operator=(const TemporaryFolder &) = delete;
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  [[nodiscard]] const std::filesystem::path &path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
-};
+using test::TemporaryFolder;
 
 inline std::string content_of(const std::filesystem::path &file)
 {
