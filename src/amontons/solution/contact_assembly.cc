@@ -122,7 +122,7 @@ void ContactAssembly::rebuild_pattern()
 
 ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t block, const State &state,
                                                     std::span<const double> start, std::span<const double> pending,
-                                                    bool forced)
+                                                    bool forced, bool first)
 {
   ContactInterface &contact = model_.contacts()[c];
   const int dim = model_.dim();
@@ -136,7 +136,9 @@ ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t 
   }
   const ContactLinearisation now = contact.linearise(i, state.displacement, start);
   const double mu = contact.options().friction_coefficient;
-  const ContactStatus status = contact_status(now, lambda, mu, r);
+  ContactStatus status = contact_status(now, lambda, mu, r);
+  if (first && status != ContactStatus::open && contact.committed_status(i) != ContactStatus::open)
+    status = contact.committed_status(i);
   const bool force_closed = forced && status == ContactStatus::open;
   work.element = force_closed ? contact_element(now, lambda, 0, r, ContactStatus::slip)
                               : contact_element(now, lambda, mu, r, status);
@@ -275,7 +277,7 @@ void ContactAssembly::add(const Work &work, std::span<const double> pending, Con
 
 ContactContribution ContactAssembly::evaluate(const State &state, std::span<const double> start,
                                               std::span<const double> pending,
-                                              std::span<const std::pair<int, Index>> forced)
+                                              std::span<const std::pair<int, Index>> forced, bool first)
 {
   ContactContribution out;
   out.force.assign(static_cast<std::size_t>(model_.n_nodal()), 0);
@@ -289,7 +291,7 @@ ContactContribution ContactAssembly::evaluate(const State &state, std::span<cons
     for (Index i = 0; i < model_.contacts()[c].n_nodes(); ++i)
     {
       const bool force = std::find(forced.begin(), forced.end(), std::pair{c, i}) != forced.end();
-      Work work = make_element(c, i, first_block_[c] + i, state, start, pending, force);
+      Work work = make_element(c, i, first_block_[c] + i, state, start, pending, force, first);
       out.status.push_back(work.element.status);
       const auto node = static_cast<Index>(model_.contacts()[c].impactor().node_ids[i]);
       if (special_[node])

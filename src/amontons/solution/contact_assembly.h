@@ -38,8 +38,10 @@ public:
   /// @param start nodal displacement at the increment's beginning
   /// @param pending prescribed motion still to come, nodal; may be empty
   /// @param forced (contact, node) to be taken as closed whatever sigma says
+  /// @param first at an increment's beginning a closed node keeps the status it ended the last one with: at the limit of
+  ///        friction sigma cannot tell stick from slip, and sliding that goes on is the likelier
   ContactContribution evaluate(const State &state, std::span<const double> start, std::span<const double> pending,
-                               std::span<const std::pair<int, Index>> forced = {});
+                               std::span<const std::pair<int, Index>> forced, bool first);
 
   /// Closed nodes' rows and open nodes of the last evaluation, for FreeMotions.
   [[nodiscard]] const std::vector<HoldingNode> &holding() const { return holding_; }
@@ -57,7 +59,7 @@ private:
   };
   void find_shared_nodes();
   [[nodiscard]] Work make_element(int c, Index i, std::size_t block, const State &state, std::span<const double> start,
-                                  std::span<const double> pending, bool forced);
+                                  std::span<const double> pending, bool forced, bool first);
   void drop_dependent_rows(std::span<Work *const> works, const State &state);
   void add(const Work &work, std::span<const double> pending, ContactContribution &out);
   void write(std::size_t block, const ContactElement &element);

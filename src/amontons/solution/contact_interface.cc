@@ -53,6 +53,7 @@ ContactInterface::ContactInterface(const Mesh &mesh, Kinematics kinematics, Stra
   start_gap_.assign(n, 0);
   gap_offset_.assign(n, 0);
   total_slip_.assign(n * (dim_ - 1), 0);
+  status_.assign(n, ContactStatus::open);
   old_frame_.resize(n);
 }
 

@@ -62,7 +62,13 @@ public:
   [[nodiscard]] ContactResult result(std::span<const double> displacement, std::span<const double> start,
                                      std::span<const double> multipliers);
   /// Adds the increment's slip to the totals.
-  void commit(const ContactResult &result) { total_slip_ = result.slip; }
+  void commit(const ContactResult &result)
+  {
+    total_slip_ = result.slip;
+    status_ = result.status;
+  }
+  /// Status at the end of the last increment.
+  [[nodiscard]] ContactStatus committed_status(Index i) const { return status_[i]; }
 
   /// First multiplier of node i in State::multipliers.
   [[nodiscard]] Index multiplier(Index i) const { return first_multiplier_ + i * dim_; }
@@ -94,6 +100,7 @@ private:
   std::vector<char> has_origin_;
   std::vector<double> start_gap_;
   std::vector<double> gap_offset_;                                   ///< initial overlap that is taken as zero
+  std::vector<ContactStatus> status_; ///< at the increment's beginning
   std::vector<double> total_slip_;                                   ///< [n * (dim-1)]
   std::vector<std::array<Eigen::Vector3d, max_tangents>> old_frame_; ///< of nodes whose face changed
   std::vector<Index> changed_;

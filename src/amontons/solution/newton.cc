@@ -163,7 +163,7 @@ void Newton::compute_residual(Evaluation &out, const State &state, double time,
 }
 
 Newton::Evaluation Newton::evaluate(const State &state, const State &start, double time,
-                                    std::span<const std::pair<int, Index>> forced)
+                                    std::span<const std::pair<int, Index>> forced, bool first)
 {
   Evaluation out;
   try
@@ -184,7 +184,7 @@ Newton::Evaluation Newton::evaluate(const State &state, const State &start, doub
   ++counters_.n_contact_updates;
   const ContactContribution contact = contacts_.evaluate(
       state, start.displacement,
-      out.pending_motion > 0 ? std::span<const double>(out.pending) : std::span<const double>{}, forced);
+      out.pending_motion > 0 ? std::span<const double>(out.pending) : std::span<const double>{}, forced, first);
   out.status = contact.status;
   update_rigid_blocks(state, contact.force);
   compute_residual(out, state, time, contact);
@@ -217,7 +217,7 @@ void Newton::update_rigid_blocks(const State &state, std::span<const double> con
   }
 }
 
-void Newton::restrain(Evaluation &at, const State &state, const State &start, double time)
+void Newton::restrain(Evaluation &at, const State &state, const State &start, double time, bool first)
 {
   if (!free_motions_.any())
     return;
@@ -225,7 +225,7 @@ void Newton::restrain(Evaluation &at, const State &state, const State &start, do
       free_motions_.decide(state, contacts_.holding(), contacts_.candidates(), at.residual, time, at.scale);
   const bool bordered = form_.set_held_modes(decision.held_modes);
   if (!decision.closed.empty() || bordered)
-    at = evaluate(state, start, time, decision.closed);
+    at = evaluate(state, start, time, decision.closed, first);
 }
 
 std::vector<double> Newton::solve_linear(const Evaluation &at, const State &)
@@ -281,7 +281,7 @@ NewtonOutcome Newton::solve(State &state, double time)
   {
     form_.set_held_modes({});
     detect(now);
-    Evaluation at = evaluate(now, start, time, {});
+    Evaluation at = evaluate(now, start, time, {}, true);
     if (!at.valid)
       throw NumericalFailure("a cell is inside out at the beginning of the increment");
     n_flips_.assign(at.status.size(), 0);
@@ -297,7 +297,7 @@ NewtonOutcome Newton::solve(State &state, double time)
       }
       if (iteration > options.max_iterations)
         throw NumericalFailure("no convergence in " + std::to_string(options.max_iterations) + " iterations");
-      restrain(at, now, start, time);
+      restrain(at, now, start, time, iteration == 1);
       const std::vector<double> step = solve_linear(at, now);
       outcome.n_iterations = iteration;
       ++outcome.n_linear_iterations;
@@ -310,7 +310,7 @@ NewtonOutcome Newton::solve(State &state, double time)
       {
         next = model_.prescribe(model_.advance(now, step, share), time, share);
         detect(next);
-        after = evaluate(next, start, time, {});
+        after = evaluate(next, start, time, {}, false);
         if (after.valid)
           break;
       }

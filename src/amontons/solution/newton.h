@@ -43,12 +43,12 @@ public:
 private:
   struct Evaluation;
   [[nodiscard]] Evaluation evaluate(const State &state, const State &start, double time,
-                                    std::span<const std::pair<int, Index>> forced);
+                                    std::span<const std::pair<int, Index>> forced, bool first);
   void compute_residual(Evaluation &out, const State &state, double time, const ContactContribution &contact) const;
   bool detect(State &state);
   void prepare_matrix(const State &state, double time);
   [[nodiscard]] std::vector<double> solve_linear(const Evaluation &at, const State &state);
-  void restrain(Evaluation &at, const State &state, const State &start, double time);
+  void restrain(Evaluation &at, const State &state, const State &start, double time, bool first);
   void update_rigid_blocks(const State &state, std::span<const double> contact_force);
   [[nodiscard]] std::string remark(const Evaluation &now, std::span<const ContactStatus> before);
 
