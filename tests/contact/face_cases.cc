@@ -40,6 +40,7 @@ struct Interpolation
     xi[a] = linear_about_centre ? Jet(centre[a]) : Jet(0);
     const auto low = at(xi);
     std::vector<Jet> out;
+    out.reserve(high.size());
     for (std::size_t i = 0; i < high.size(); ++i)
       out.push_back(high[i] - low[i]);
     return out;
@@ -95,6 +96,7 @@ template<class Vector>
 std::vector<JetPoint> face_of(int dim, int n_nodes, const Vector &x, int first)
 {
   std::vector<JetPoint> face;
+  face.reserve(n_nodes);
   for (int i = 0; i < n_nodes; ++i)
     face.push_back(jet_node(dim, x, first + i));
   return face;

@@ -78,7 +78,7 @@ ShapeFrame<Scalar, dim> revolved_frame(bool axisymmetric, const Shape &shape, co
   const double half_angle = shape.type == ShapeType::cone ? shape.half_angle : 0;
   const double radius = shape.type == ShapeType::cone ? 0 : shape.radius;
   const double cosine = std::cos(half_angle), sine = std::sin(half_angle);
-  const Point<Scalar, dim> k = axis.template cast<Scalar>();
+  const auto k = axis.template cast<Scalar>().eval();
   const Scalar height = p.dot(k);
   Point<Scalar, dim> radial = p - k * height;
   Scalar distance = axisymmetric ? radial[0] : norm<Scalar, dim>(radial);
