@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <optional>
 
 namespace amontons::test
 {
@@ -171,6 +172,71 @@ TEST(ExactDetection, EqualsBruteForceOnTriangles)
     for (const unsigned seed : {1U, 2U})
       expect_exact(c, seed);
 }
+// Sheets with ends all round, one above another, and nodes all about them: many lie past an end and take another sheet.
+Surface terraces(bool triangles)
+{
+  const auto map = [](double s, double t)
+  {
+    const int level = static_cast<int>(3 * t - 1e-9);
+    const double y = 3 * t - level;
+    return Point{(1 - 0.2 * level) * graded(s, 20), y, 0.2 * level + 0.05 * std::sin(5 * s + 7 * y)};
+  };
+  Surface all = sheet(24, 36, triangles, map);
+  Surface cut; // without the faces from one level to the next
+  cut.dim = 3;
+  cut.node_ids = all.node_ids;
+  cut.reference = all.reference;
+  for (Index f = 0; f < all.n_faces(); ++f)
+  {
+    double low = 1, high = 0;
+    for (const Index node : all.face(f))
+    {
+      low = std::min(low, all.reference[3 * static_cast<std::size_t>(node) + 1]);
+      high = std::max(high, all.reference[3 * static_cast<std::size_t>(node) + 1]);
+    }
+    if (high - low > 0.2)
+      continue;
+    for (const Index node : all.face(f))
+      cut.face_nodes.push_back(node);
+    cut.face_offsets.push_back(static_cast<Index>(cut.face_nodes.size()));
+    cut.face_ids.push_back(f);
+  }
+  cut.build_adjacency();
+  return cut;
+}
+
+TEST(ExactDetection, EqualsBruteForcePastTheEnds)
+{
+  for (const bool triangles : {false, true})
+  {
+    const Surface target = terraces(triangles);
+    const Surface impactor = cloud_about(target, 700, 0.2, 3);
+    for (const std::optional<double> extension : {std::optional<double>{}, std::optional<double>{0.05}})
+    {
+      DetectionOptions options;
+      options.extension = extension;
+      options.method = DetectionMethod::brute;
+      const auto oracle = make_detector(options, impactor, target);
+      options.method = DetectionMethod::exact;
+      const auto exact = make_detector(options, impactor, target);
+      const Pairing expected = oracle->detect(impactor.reference, target.reference, 0.3);
+      const Comparison result = compare(exact->detect(impactor.reference, target.reference, 0.3), expected);
+      EXPECT_EQ(result.n_wrong + result.n_other_face, 0);
+      const DetectionReport report = oracle->report();
+      EXPECT_GT(report.unpaired_by_reason.at("past_end"), 20);
+      EXPECT_GT(report.pairs_by_kind.at("extension"), 5);
+      // Some take a sheet that is not the closest: farther away than the closest point of all.
+      options.extension = 10;
+      const auto all = make_detector(options, impactor, target);
+      const Pairing &closest = all->detect(impactor.reference, target.reference, 0.3);
+      int n_elsewhere = 0;
+      for (std::size_t i = 0; i < expected.size(); ++i)
+        n_elsewhere += expected[i].face >= 0 && expected[i].distance > closest[i].distance + 1e-12;
+      EXPECT_GT(n_elsewhere, 20);
+    }
+  }
+}
+
 // The paper's rule looks only at the faces of the nearest node. Its distance is never too small; where the mesh is
 // graded or stretched it is too large for some nodes: how many is recorded, and shown.
 struct Misses

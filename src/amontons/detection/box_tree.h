@@ -63,9 +63,11 @@ public:
   /// @param front collected for a box that holds x and a bound not smaller; null: from the root
   /// @param squared_bound read anew after each visit, so that the visitor may shrink it
   /// @param visit called with the slot
-  template<typename Visitor>
-  void visit_within(const std::array<double, dim> &x, const double &squared_bound, const Front *front,
-                    Visitor &&visit) const;
+  /// @param keep called with the level (-1: a face, 0: eight of them, ...) and the index at that level; where false,
+  ///        nothing below is visited
+  template<typename Visitor, typename Filter>
+  void visit_within(const std::array<double, dim> &x, const double &squared_bound, const Front *front, Visitor &&visit,
+                    Filter &&keep) const;
 
 private:
   using FloatPoint = std::array<float, static_cast<std::size_t>(dim)>;

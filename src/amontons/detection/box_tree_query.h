@@ -4,9 +4,9 @@
 namespace amontons
 {
 template<int dim>
-template<typename Visitor>
+template<typename Visitor, typename Filter>
 void BoxTree<dim>::visit_within(const std::array<double, dim> &x, const double &squared_bound, const Front *front,
-                                Visitor &&visit) const
+                                Visitor &&visit, Filter &&keep) const
 {
   if (order_.empty())
     return;
@@ -28,7 +28,7 @@ void BoxTree<dim>::visit_within(const std::array<double, dim> &x, const double &
   while (n_stacked > 0)
   {
     const Entry entry = stack[--n_stacked];
-    if (entry.squared_distance > rounded_up(squared_bound))
+    if (entry.squared_distance > rounded_up(squared_bound) || !keep(entry.level, entry.index))
       continue;
     if (entry.level < 0)
     {

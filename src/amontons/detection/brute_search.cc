@@ -33,7 +33,7 @@ public:
     }
   }
 
-  void within(const Target &target, const Query &query, Index node, double radius,
+  void minima(const Target &target, const Query &query, Index node, double radius,
               std::vector<Candidate> &result) override
   {
     const Eigen::Vector3d x = point_of(query.x, target.surface().dim, node);

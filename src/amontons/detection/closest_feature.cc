@@ -42,9 +42,10 @@ int position_of(std::span<const Index> nodes, Index node)
 class FeatureView
 {
 public:
-  FeatureView(const Target &target, const Candidate &candidate, const Vector3d &x)
+  FeatureView(const Target &target, const Candidate &candidate, const Vector3d &x, bool only_minima)
     : target_(target)
     , x_(x)
+    , only_minima_(only_minima)
     , face_(candidate.face)
     , coordinates_(target.face(candidate.face))
     , point_(face_point(coordinates_, candidate.xi))
@@ -71,19 +72,22 @@ public:
       look_at_edge(where.index, xi);
     else
       look_at_vertex(where.index);
-    choose(where.type);
+    if (feature_.is_minimum || !only_minima_)
+      choose(where.type);
     return feature_;
   }
 
 private:
   void look_at_edge(int k, LocalPoint xi);
   void look_at_vertex(int k);
-  void look_along_edge(const AttachedFace &attached, int k, const Vector3d &inward);
+  void note_end(const AttachedFace &attached, int k, const Vector3d &inward);
+  [[nodiscard]] bool is_minimum_at_vertex(Index node) const;
   void take(const AttachedFace &attached);
   void choose(FaceFeature type);
 
   const Target &target_;
   const Vector3d &x_;
+  bool only_minima_;
   Index face_;
   FaceCoordinates coordinates_;
   Vector3d point_, offset_;
@@ -100,15 +104,13 @@ Vector3d into_face(const Vector3d &a, const Vector3d &b, const Vector3d &normal)
   return normal.cross(b - a).normalized();
 }
 
-// Takes account of the end of the target that edge k (an end in 2D) may be, and of whether the face goes on towards x.
-void FeatureView::look_along_edge(const AttachedFace &attached, int k, const Vector3d &inward)
+// Takes account of the end of the target that edge k (an end in 2D) may be.
+void FeatureView::note_end(const AttachedFace &attached, int k, const Vector3d &inward)
 {
-  const double advance = offset_.dot(inward);
-  if (advance > same * size_)
-    feature_.is_minimum = false;
-  if (target_.neighbour(attached.face, k) >= 0 || -advance <= std::max(feature_.overhang, same * size_))
+  const double overhang = -offset_.dot(inward);
+  if (target_.neighbour(attached.face, k) >= 0 || overhang <= std::max(feature_.overhang, same * size_))
     return;
-  feature_.overhang = -advance;
+  feature_.overhang = overhang;
   feature_.extent = 0;
   for (int i = 0; i < attached.x.n_nodes; ++i)
     feature_.extent = std::max(feature_.extent, (attached.x.x[i] - point_).dot(inward));
@@ -153,14 +155,38 @@ void FeatureView::look_at_edge(int k, LocalPoint xi)
     // The neighbour runs along the common edge the other way, if it is oriented alike.
     const int n = attached.x.n_nodes;
     const bool forward = (i + 1) % n == j;
-    look_along_edge(attached, forward ? i : j,
-                    into_face(attached.x.x[forward ? i : j], attached.x.x[forward ? j : i], attached.normal));
+    const Vector3d inward = into_face(attached.x.x[forward ? i : j], attached.x.x[forward ? j : i], attached.normal);
+    if (offset_.dot(inward) > same * size_)
+      feature_.is_minimum = false;
+    if (only_minima_ && !feature_.is_minimum)
+      return;
+    note_end(attached, forward ? i : j, inward);
   }
+}
+
+// Along none of the edges that meet at the vertex does the target come closer, to first order.
+bool FeatureView::is_minimum_at_vertex(Index node) const
+{
+  for (const Index f : target_.surface().faces_of_node(node))
+  {
+    const auto own = target_.surface().face(f);
+    const std::size_t n = own.size(), i = position_of(own, node);
+    for (const Index other : {own[(i + 1) % n], own[(i + n - 1) % n]})
+    {
+      const Vector3d edge = target_.node(other) - point_;
+      if (const double advance = offset_.dot(edge); advance > 0 && advance > same * size_ * edge.norm())
+        return false;
+    }
+  }
+  return true;
 }
 
 void FeatureView::look_at_vertex(int k)
 {
   const Index node = target_.surface().face(face_)[k];
+  feature_.is_minimum = is_minimum_at_vertex(node);
+  if (only_minima_ && !feature_.is_minimum)
+    return;
   for (const Index f : target_.surface().faces_of_node(node))
   {
     AttachedFace attached{f, target_.face(f), {0, 0}, Vector3d::Zero()};
@@ -170,24 +196,17 @@ void FeatureView::look_at_vertex(int k)
     attached.signed_distance = offset_.dot(attached.normal);
     const Vector3d &here = attached.x.x[i];
     const Vector3d ahead = (attached.x.x[(i + 1) % n] - here).normalized();
-    const Vector3d back = (attached.x.x[(i + n - 1) % n] - here).normalized();
     if (n == 2)
     {
-      look_along_edge(attached, i, ahead);
+      note_end(attached, i, ahead);
       take(attached);
       continue;
     }
-    attached.angle = std::acos(std::clamp(ahead.dot(back), -1.0, 1.0));
+    const int before = (i + n - 1) % n;
+    attached.angle = std::acos(std::clamp(ahead.dot((attached.x.x[before] - here).normalized()), -1.0, 1.0));
     take(attached);
-    if (offset_.dot(ahead) > same * size_ || offset_.dot(back) > same * size_)
-      feature_.is_minimum = false;
-    for (const int edge : {i, (i + n - 1) % n})
-      if (target_.neighbour(f, edge) < 0)
-      {
-        const bool was_minimum = feature_.is_minimum; // beside a vertex the edges' directions decide
-        look_along_edge(attached, edge, into_face(attached.x.x[edge], attached.x.x[(edge + 1) % n], attached.normal));
-        feature_.is_minimum = was_minimum;
-      }
+    for (const int edge : {i, before})
+      note_end(attached, edge, into_face(attached.x.x[edge], attached.x.x[(edge + 1) % n], attached.normal));
   }
 }
 
@@ -210,8 +229,8 @@ void FeatureView::choose(FaceFeature type)
 }
 } // namespace
 
-Feature look_at(const Target &target, const Candidate &candidate, const Vector3d &x)
+Feature look_at(const Target &target, const Candidate &candidate, const Vector3d &x, bool only_minima)
 {
-  return FeatureView(target, candidate, x).look(candidate.xi);
+  return FeatureView(target, candidate, x, only_minima).look(candidate.xi);
 }
 } // namespace amontons

@@ -40,5 +40,6 @@ struct Feature
 /// the smaller id. The side is that of the pseudonormal, the sum of the attached faces' normals weighted by their
 /// angles, which is right at every vertex of a closed surface (Baerentzen, Aanaes 2005); only faces that agree with it
 /// are chosen.
-Feature look_at(const Target &target, const Candidate &candidate, const Eigen::Vector3d &x);
+/// @param only_minima give up, with only `is_minimum` set, where the candidate is not one
+Feature look_at(const Target &target, const Candidate &candidate, const Eigen::Vector3d &x, bool only_minima = false);
 } // namespace amontons

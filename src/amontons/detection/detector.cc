@@ -3,6 +3,7 @@
 #include "amontons/base/error.h"
 #include "amontons/detection/search.h"
 #include "amontons/detection/search_distance.h"
+#include "amontons/detection/visiting_order.h"
 
 #include <Eigen/Dense>
 
@@ -58,6 +59,7 @@ public:
     , impactor_(impactor)
     , target_(target)
     , search_(make_search(options.method, target.dim))
+    , order_(visiting_order(impactor))
     , pairing_(impactor.node_ids.size())
     , candidates_(impactor.node_ids.size())
   {
@@ -90,6 +92,7 @@ private:
   Target target_;
   std::unique_ptr<Search> search_;
   SearchDistance distance_;
+  std::vector<Index> order_; ///< of impactor nodes, such that neighbours mostly follow one another
   Pairing pairing_;
   DetectionReport report_;
   Timers timers_;
@@ -120,7 +123,7 @@ void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span
   if (!std::isfinite(sum))
     throw NumericalFailure("contact detection: the nodes' positions are not finite");
   nodes_.clear();
-  for (Index node = 0; node < impactor_.n_nodes(); ++node)
+  for (const Index node : order_)
   {
     bool inside = true;
     for (int c = 0; c < dim; ++c)
@@ -151,7 +154,7 @@ const Pairing &SurfaceDetector::detect(std::span<const double> impactor_x, std::
     distance_ = search_distance(target_, options_, reach);
     choose_nodes(impactor_x, target_x);
   }
-  query_ = {impactor_x, nodes_, distance_.w};
+  query_ = {impactor_x, nodes_, distance_.w, options_.extension};
   {
     const auto time = timers_.measure("fill");
     search_->fill(target_, query_);
@@ -209,7 +212,7 @@ Pair SurfaceDetector::next_best(Index node, const Vector3d &x)
   {
     const double bounded = std::clamp(radius, 1e-3 * distance_.w, distance_.w);
     considered_.clear();
-    search_->within(target_, query_, node, bounded, considered_);
+    search_->minima(target_, query_, node, bounded, considered_);
     std::sort(considered_.begin(), considered_.end(),
               [this](const Candidate &a, const Candidate &b) { return comes_before(target_.surface(), a, b); });
     pair = best_of_considered(node, x);
@@ -227,7 +230,7 @@ Pair SurfaceDetector::best_of_considered(Index node, const Vector3d &x) const
   none.reason = NoPairReason::past_end;
   for (const Candidate &candidate : considered_)
   {
-    const Feature feature = look_at(target_, candidate, x);
+    const Feature feature = look_at(target_, candidate, x, true);
     if (!feature.is_minimum)
       continue;
     const Verdict verdict = judge(feature, node);

@@ -17,7 +17,7 @@ class NearestNodeSearch : public Search
 public:
   void fill(const Target &target, const Query &query) override;
   void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) override;
-  void within(const Target &target, const Query &query, Index node, double radius,
+  void minima(const Target &target, const Query &query, Index node, double radius,
               std::vector<Candidate> &result) override;
 
 private:
@@ -167,7 +167,7 @@ void NearestNodeSearch::closest(const Target &target, const Query &query, std::s
   }
 }
 
-void NearestNodeSearch::within(const Target &target, const Query &query, Index node, double radius,
+void NearestNodeSearch::minima(const Target &target, const Query &query, Index node, double radius,
                                std::vector<Candidate> &result)
 {
   if (nearest_[node] < 0)

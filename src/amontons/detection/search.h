@@ -4,6 +4,7 @@
 #include "amontons/detection/target.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Query
   std::span<const double> x;    ///< all nodes, [n_nodes * dim]
   std::span<const Index> nodes; ///< the nodes inside the target's box grown by w
   double w = 0;
+  std::optional<double> extension; ///< past the target's ends, where the user gave it
 };
 
 /// Finds closest faces: what the detection methods differ in. Buffers stay between calls.
@@ -32,9 +34,9 @@ public:
   /// @param timers the phases "nearest" and, where it is a step of its own, "projection"
   virtual void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) = 0;
 
-  /// Appends every face that the method considers for this node and that comes within `radius` of it, with its closest
-  /// point.
-  virtual void within(const Target &target, const Query &query, Index node, double radius,
+  /// Appends the faces within `radius` of a node, with their closest points, that may be local minima of the distance
+  /// (they need not be), of those that the method considers.
+  virtual void minima(const Target &target, const Query &query, Index node, double radius,
                       std::vector<Candidate> &result) = 0;
 };
 

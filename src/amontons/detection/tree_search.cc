@@ -1,4 +1,5 @@
 #include "amontons/detection/box_tree.h"
+#include "amontons/detection/normal_cones.h"
 #include "amontons/detection/search.h"
 
 #include <algorithm>
@@ -16,6 +17,8 @@ class TreeSearch : public Search
 public:
   void fill(const Target &target, const Query &) override
   {
+    cones_are_current_ = false;
+    n_looked_at_ = 0;
     const Surface &surface = target.surface();
     if (tree_.order().size() != surface.face_ids.size())
       order(target);
@@ -36,17 +39,28 @@ public:
                        result);
   }
 
-  void within(const Target &, const Query &query, Index node, double radius, std::vector<Candidate> &result) override
+  void minima(const Target &target, const Query &query, Index node, double radius,
+              std::vector<Candidate> &result) override
   {
+    // The cones cost as much as looking at every face once: made where that much has been spent without them.
+    if (!cones_are_current_ && n_looked_at_ > tree_.order().size())
+    {
+      cones_.build(target, tree_.order());
+      cones_are_current_ = true;
+    }
     const Vector3d x = point_of(query.x, dim, node);
     const double bound = radius * radius;
-    tree_.visit_within(as_array(x), bound, nullptr,
-                       [&](Index slot)
-                       {
-                         if (const Candidate candidate = candidate_in(slot, tree_.order()[slot], x);
-                             candidate.squared_distance <= bound)
-                           result.push_back(candidate);
-                       });
+    tree_.visit_within(
+        as_array(x), bound, nullptr,
+        [&](Index slot)
+        {
+          ++n_looked_at_;
+          if (const Candidate candidate = candidate_in(slot, tree_.order()[slot], x);
+              candidate.squared_distance <= bound)
+            result.push_back(candidate);
+        },
+        [&](int level, std::size_t index)
+        { return !cones_are_current_ || cones_.may_hold_minimum(level, index, x, query.extension); });
   }
 
 private:
@@ -80,12 +94,14 @@ private:
       const Vector3d x = point_of(query.x, dim, node);
       Candidate &best = result[node];
       const Index known = best.face;
-      tree_.visit_within(as_array(x), best.squared_distance, shared ? &front_ : nullptr,
-                         [&](Index slot)
-                         {
-                           if (const Index f = tree_.order()[slot]; f != known)
-                             consider(target.surface(), candidate_in(slot, f, x), best);
-                         });
+      tree_.visit_within(
+          as_array(x), best.squared_distance, shared ? &front_ : nullptr,
+          [&](Index slot)
+          {
+            if (const Index f = tree_.order()[slot]; f != known)
+              consider(target.surface(), candidate_in(slot, f, x), best);
+          },
+          [](int, std::size_t) { return true; });
     }
   }
 
@@ -166,6 +182,9 @@ private:
   std::vector<typename BoxTree<dim>::Box> boxes_;
   BoxTree<dim> tree_;
   typename BoxTree<dim>::Front front_;
+  NormalCones cones_;
+  bool cones_are_current_ = false;
+  std::size_t n_looked_at_ = 0; ///< faces, in the search for minima since the last fill
 };
 } // namespace
 

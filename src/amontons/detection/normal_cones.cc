@@ -1,0 +1,115 @@
+#include "amontons/detection/normal_cones.h"
+
+#include "amontons/detection/box_tree.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace amontons
+{
+namespace
+{
+// Cones wider than this say nothing: a sharp fold has minima in directions that its faces' normals do not hold.
+constexpr float widest = 1.0F;
+constexpr float everything = 4.0F; // more than pi
+constexpr float round_off = 1e-3F;
+
+// Not less than the angle between two unit vectors, from their chord c: 2 asin(c/2) <= c + c^3/20 up to c = 1.
+float angle_bound(const Eigen::Vector3f &a, const Eigen::Vector3f &b)
+{
+  const float chord2 = (a - b).squaredNorm();
+  return chord2 < 1 ? std::sqrt(chord2) * (1 + 0.05F * chord2) : everything;
+}
+} // namespace
+
+NormalCones::Cone NormalCones::around(std::span<const Cone> parts)
+{
+  Cone cone;
+  for (const Cone &part : parts)
+  {
+    cone.centre += part.centre / static_cast<float>(parts.size());
+    cone.axis += part.axis;
+  }
+  cone.axis.normalize();
+  for (const Cone &part : parts)
+  {
+    cone.radius = std::max(cone.radius, (1 + 1e-5F) * ((part.centre - cone.centre).norm() + part.radius));
+    cone.half_angle = std::max(cone.half_angle, angle_bound(cone.axis, part.axis) + part.half_angle);
+  }
+  if (!(cone.half_angle < widest) || cone.axis.squaredNorm() < 0.5F)
+    cone.half_angle = everything;
+  return cone;
+}
+
+// Of all normals of the faces attached to each node, at all of their corners.
+std::vector<NormalCones::Cone> NormalCones::cones_of_nodes(const Target &target)
+{
+  const Surface &surface = target.surface();
+  std::vector<Cone> result(surface.node_ids.size());
+  std::vector<Cone> parts;
+  for (Index node = 0; node < surface.n_nodes(); ++node)
+  {
+    parts.clear();
+    for (const Index f : surface.faces_of_node(node))
+    {
+      const FaceCoordinates face = target.face(f);
+      static constexpr std::array<LocalPoint, 4> corners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+      for (int k = 0; k < (face.n_nodes == 4 ? 4 : 1); ++k)
+        parts.push_back({{0, 0, 0}, 0, face_normal(face, corners[k]).cast<float>(), round_off});
+    }
+    if (!parts.empty())
+      result[node] = around(parts);
+  }
+  return result;
+}
+
+void NormalCones::build(const Target &target, const std::vector<Index> &order)
+{
+  constexpr std::size_t width = BoxTree<3>::width;
+  const std::vector<Cone> nodes = cones_of_nodes(target);
+  levels_.assign(1, std::vector<Cone>(order.size()));
+  if (!order.empty())
+    origin_ = target.face(order[0]).x[0];
+  for (std::size_t slot = 0; slot < order.size(); ++slot)
+  {
+    const FaceCoordinates face = target.face(order[slot]);
+    const auto own = target.surface().face(order[slot]);
+    std::array<Cone, 4> corners;
+    for (int k = 0; k < face.n_nodes; ++k)
+    {
+      corners[k] = nodes[own[k]];
+      corners[k].centre = (face.x[k] - origin_).cast<float>();
+    }
+    levels_[0][slot] = around({corners.data(), static_cast<std::size_t>(face.n_nodes)});
+  }
+  while (levels_.back().size() > 1 || levels_.size() == 1)
+  {
+    const std::vector<Cone> &below = levels_.back();
+    std::vector<Cone> level((below.size() + width - 1) / width);
+    for (std::size_t i = 0; i < level.size(); ++i)
+      level[i] = around(std::span(below).subspan(i * width, std::min(width, below.size() - i * width)));
+    levels_.push_back(std::move(level));
+  }
+}
+
+bool NormalCones::may_hold_minimum(int level, std::size_t index, const Eigen::Vector3d &x,
+                                   std::optional<double> extension) const
+{
+  const Cone &cone = levels_[level + 1][index];
+  if (cone.half_angle > widest)
+    return true;
+  const Eigen::Vector3f offset = (x - origin_).cast<float>() - cone.centre;
+  const float distance = offset.norm();
+  const float least = distance - cone.radius - 1e-6F * (cone.centre.norm() + distance);
+  // Half the sphere's diameter is more than the default fraction of any face in it.
+  const float past_end = extension ? static_cast<float>(*extension) : cone.radius;
+  if (least <= past_end || least <= 0)
+    return true;
+  const float angle = std::atan2(offset.cross(cone.axis).norm(), offset.dot(cone.axis));
+  const float from_axis = std::min(angle, std::numbers::pi_v<float> - angle);
+  return from_axis <= cone.half_angle + std::asin(cone.radius / distance) + std::asin(past_end / least) + round_off;
+}
+} // namespace amontons
