@@ -115,6 +115,7 @@ GmshSession::GmshSession(const std::map<std::string, double> &parameters)
     words.insert(words.end(), {"-setnumber", name, number});
   }
   std::vector<char *> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string &word : words)
     arguments.push_back(word.data());
   arguments.push_back(nullptr);

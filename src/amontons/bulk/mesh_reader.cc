@@ -76,6 +76,7 @@ private:
   [[nodiscard]] std::vector<Index> positions(const std::vector<GlobalIndex> &tags) const
   {
     std::vector<Index> nodes;
+    nodes.reserve(tags.size());
     for (const GlobalIndex tag : tags)
       nodes.push_back(static_cast<Index>(std::lower_bound(mesh_.node_tags.begin(), mesh_.node_tags.end(), tag) -
                                          mesh_.node_tags.begin()));
