@@ -197,9 +197,13 @@ int solve(const Mesh &mesh, BodyAssembly &assembly, const std::vector<bool> &hel
     K.prune([&](Eigen::Index i, Eigen::Index j, double) { return i == j || (!held[i] && !held[j]); });
     Eigen::SparseLU<Eigen::SparseMatrix<double>> solver(K);
     const Eigen::VectorXd du = solver.solve(rhs);
+    double largest = 0;
     for (std::size_t i = 0; i < u.size(); ++i)
+    {
       u[i] += du[static_cast<Eigen::Index>(i)];
-    if (iteration > 0 && du.lpNorm<Eigen::Infinity>() <= 1e-14)
+      largest = std::max(largest, std::abs(u[i]));
+    }
+    if (iteration > 0 && du.lpNorm<Eigen::Infinity>() <= 1e-8 * largest) // the next would be of the size of its square
       return iteration;
   }
   return -1;

@@ -39,6 +39,7 @@ struct Deformation
 ///
 /// Its energy is sum_q w_q W(F_q); with mean dilatation sum_q w_q W_iso(F_q) + V U(Jbar), Jbar = sum_q w_q J_q / V,
 /// V = sum_q w_q (Nagtegaal, Parks, Rice 1974; Simo, Taylor, Pister 1985), which has a symmetric tangent.
+/// @tparam Scalar double, or complex for derivatives of the force by complex steps
 template<class Cell, typename Scalar>
 class FiniteStrainCell
 {
@@ -82,23 +83,20 @@ public:
 
   [[nodiscard]] Matrix tangent() const
   {
-    TangentSum<Cell, Scalar> sum;
+    TangentSum<Cell, 2> sum;
     Vector dilatation = Vector::Zero();
     for (std::size_t q = 0; q < points_.size(); ++q)
     {
-      const CellPoint<Cell> &point = points_[q];
       const Deformation<Cell, Scalar> &d = deformations_[q];
-      const PointTangent<Scalar> A = response(d).tangent;
-      const NodalValues spatial = d.H * point.gradients;
+      const NodalValues spatial = d.H * points_[q].gradients;
       const Vector along_h = divergence(q, spatial);
-      sum.add(point, A, spatial, along_h, d.across);
-      sum.add_stretch(point.weight, A, stretch(q), along_h);
-      if (mean_)
-        dilatation += (point.weight * d.J) * along_h;
+      sum.set(static_cast<int>(q), points_[q], response(d).tangent, spatial, along_h, stretch(q), d.across);
+      dilatation += (points_[q].weight * d.J) * along_h;
     }
+    Matrix K = sum.total();
     if (mean_)
-      sum.add_outer_product(mean_->second / volume_, dilatation);
-    return sum.total();
+      K.noalias() += (mean_->second / volume_ * dilatation) * dilatation.transpose();
+    return K;
   }
 
   /// Mean Cauchy stress over the current volume: xx, yy, zz, xy, yz, xz.

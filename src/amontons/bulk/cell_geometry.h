@@ -91,68 +91,53 @@ private:
 
 /// Sum of the contributions  dF : A : dF  of the points of a cell to its tangent, A in the form of PointTangent.
 ///
-/// With G_a = dN_a/dX, g_a = H G_a and f_a = F G_a (columns of `spatial` and `pushed`) each term is an outer product,
-/// so that no matrix of the size (components of F) x unknowns is ever formed; the term with indices exchanged is summed
-/// as an outer product too and each block transposed at the end.
-template<class Cell, typename Scalar>
+/// With G_a = dN_a/dX, g_a = H G_a and f_a = F G_a each term is an outer product of vectors by unknown, so that no
+/// matrix of the size (components of F) x unknowns is ever formed. The vectors of all points are gathered as columns
+/// and multiplied once; the term with indices exchanged has each node block transposed afterwards.
+/// @tparam terms columns per point: 1 without F : dF (small strain), 2 with it
+template<class Cell, int terms>
 class TangentSum
 {
 public:
-  using NodalValues = typename Cell::template NodalValues<Scalar>;
-  using Vector = typename Cell::template Vector<Scalar>;
-  using Matrix = typename Cell::template Matrix<Scalar>;
+  using NodalValues = typename Cell::template NodalValues<double>;
+  using Vector = typename Cell::template Vector<double>;
+  using Matrix = typename Cell::template Matrix<double>;
 
-  TangentSum()
-  {
-    dense_.setZero();
-    exchanged_.setZero();
-    nodal_.setZero();
-    radial_.setZero();
-  }
-
-  /// @param divergence H : dF by unknown, the columns of `spatial` and in axisymmetry the hoop's part
-  /// @param hoop_stretch F33; used in axisymmetry
-  void add(const CellPoint<Cell> &point, const PointTangent<Scalar> &A, const NodalValues &spatial,
-           const Vector &divergence, const Scalar &hoop_stretch)
+  /// Sets the contribution of point q; every point must be set.
+  /// @param spatial g_a, a column per node
+  /// @param divergence H : dF by unknown: the columns of `spatial` and in axisymmetry the hoop's part
+  /// @param stretch F : dF by unknown; not read with one term
+  /// @param hoop_stretch F33 in axisymmetry
+  void set(int q, const CellPoint<Cell> &point, const PointTangent<double> &A, const NodalValues &spatial,
+           const Vector &divergence, const Vector &stretch, double hoop_stretch)
   {
     const double w = point.weight;
-    const Vector scaled = (w * A.hh) * divergence;
-    dense_.noalias() += divergence * scaled.transpose();
-    const Eigen::Map<const Vector> column(spatial.data());
-    const Vector scaled_column = (w * A.swap) * column;
-    exchanged_.noalias() += column * scaled_column.transpose();
+    left_.col(terms * q) = divergence;
+    right_.col(terms * q) = (w * A.hh) * divergence;
+    if constexpr (terms == 2)
+    {
+      right_.col(terms * q) += (w * A.fh) * stretch;
+      left_.col(terms * q + 1) = stretch;
+      right_.col(terms * q + 1) = (w * A.fh) * divergence + (w * A.ff) * stretch;
+    }
+    spatial_.col(q) = Eigen::Map<const Vector>(spatial.data());
+    scaled_spatial_.col(q) = (w * A.swap) * spatial_.col(q);
     nodal_.noalias() += (w * A.id) * (point.gradients.transpose() * point.gradients);
     if constexpr (Cell::axisymmetric)
-    {
-      const Scalar factor = w * (A.id + A.swap / (hoop_stretch * hoop_stretch));
-      radial_.noalias() += factor * (point.hoop.transpose() * point.hoop);
-    }
-  }
-
-  /// The terms with F : dF by unknown.
-  void add_stretch(double w, const PointTangent<Scalar> &A, const Vector &stretch, const Vector &divergence)
-  {
-    const Vector scaled = (w * A.ff) * stretch + (w * A.fh) * divergence;
-    const Vector other = (w * A.fh) * stretch;
-    dense_.noalias() += stretch * scaled.transpose();
-    dense_.noalias() += divergence * other.transpose();
-  }
-
-  void add_outer_product(const Scalar &factor, const Vector &v)
-  {
-    const Vector scaled = factor * v;
-    dense_.noalias() += v * scaled.transpose();
+      radial_.noalias() +=
+          (w * (A.id + A.swap / (hoop_stretch * hoop_stretch))) * (point.hoop.transpose() * point.hoop);
   }
 
   [[nodiscard]] Matrix total() const
   {
     constexpr int dim = Cell::dim;
-    Matrix sum = dense_;
+    Matrix sum = product(left_, right_);
+    const Matrix exchanged = product(spatial_, scaled_spatial_);
     for (int b = 0; b < Cell::nodes; ++b)
       for (int a = 0; a < Cell::nodes; ++a)
       {
         sum.template block<dim, dim>(a * dim, b * dim) +=
-            exchanged_.template block<dim, dim>(a * dim, b * dim).transpose();
+            exchanged.template block<dim, dim>(a * dim, b * dim).transpose();
         for (int i = 0; i < dim; ++i)
           sum(a * dim + i, b * dim + i) += nodal_(a, b);
         if constexpr (Cell::axisymmetric)
@@ -162,8 +147,22 @@ public:
   }
 
 private:
-  Matrix dense_, exchanged_;
-  Eigen::Matrix<Scalar, Cell::nodes, Cell::nodes> nodal_, radial_;
+  template<int n>
+  using Columns = Eigen::Matrix<double, Cell::unknowns, n>;
+
+  /// A blocked product pays from the size of a hexahedron on.
+  template<int n>
+  static Matrix product(const Columns<n> &left, const Columns<n> &right)
+  {
+    if constexpr (Cell::unknowns > 12)
+      return left * right.transpose();
+    else
+      return left.lazyProduct(right.transpose());
+  }
+
+  Columns<terms * Cell::points> left_, right_;
+  Columns<Cell::points> spatial_, scaled_spatial_;
+  Eigen::Matrix<double, Cell::nodes, Cell::nodes> nodal_ = decltype(nodal_)::Zero(), radial_ = nodal_;
 };
 
 /// H : dF by unknown in the reference configuration, and the like: the columns of a nodal matrix one after another,

@@ -12,19 +12,21 @@ typename Cell::template Matrix<double> small_strain_stiffness(const CellPoints<C
   PointTangent<double> A;
   A.id = A.swap = moduli.shear;
   A.hh = mean_dilatation ? -2 * moduli.shear / 3 : Cell::plane_stress ? moduli.lame_plane_stress() : moduli.lame();
-  TangentSum<Cell, double> sum;
+  TangentSum<Cell, 1> sum;
   typename Cell::template Vector<double> dilatation = Cell::template Vector<double>::Zero();
   double volume = 0;
-  for (const CellPoint<Cell> &point : points)
+  for (int q = 0; q < Cell::points; ++q)
   {
+    const CellPoint<Cell> &point = points[q];
     const auto divergence = by_unknown<Cell, double>(point.gradients, point, 1.0);
-    sum.add(point, A, point.gradients, divergence, 1.0);
+    sum.set(q, point, A, point.gradients, divergence, divergence, 1.0);
     dilatation += point.weight * divergence;
     volume += point.weight;
   }
+  typename Cell::template Matrix<double> K = sum.total();
   if (mean_dilatation)
-    sum.add_outer_product(moduli.bulk / volume, dilatation);
-  return sum.total();
+    K.noalias() += (moduli.bulk / volume * dilatation) * dilatation.transpose();
+  return K;
 }
 
 /// Mean stress of the cell: xx, yy, zz, xy, yz, xz.

@@ -103,8 +103,9 @@ private:
   {
     if constexpr (Facet::dim == 2)
       return {t(1, 0), -t(0, 0)};
-    else
-      return t.col(0).cross(t.col(1));
+    else // written out: Eigen's cross product of complex vectors conjugates, which is of no use for a complex step
+      return {t(1, 0) * t(2, 1) - t(2, 0) * t(1, 1), t(2, 0) * t(0, 1) - t(0, 0) * t(2, 1),
+              t(0, 0) * t(1, 1) - t(1, 0) * t(0, 1)};
   }
 
   /// d(area vector)/dx_b, dN the gradient of the shape function of node b.
