@@ -37,15 +37,17 @@ void set_component(RigidComponent &component, RigidComponent::Kind kind, const E
 {
   if (component.kind != RigidComponent::Kind::held)
     throw UserError(where, "conflicting conditions: the same component of rigid body '" + body +
-                             "' is given twice; a component has either a displacement or a force");
+                               "' is given twice; a component has either a displacement or a force");
   component.kind = kind;
   component.function.emplace(expression);
 }
 } // namespace
 
-RigidBodies::RigidBodies(const Mesh &mesh, Kinematics kinematics, Strain strain,
-                         const std::vector<BodyOptions> &bodies, const std::vector<BoundaryOptions> &boundary)
-  : dim_(mesh.dim), kinematics_(kinematics), strain_(strain)
+RigidBodies::RigidBodies(const Mesh &mesh, Kinematics kinematics, Strain strain, const std::vector<BodyOptions> &bodies,
+                         const std::vector<BoundaryOptions> &boundary)
+  : dim_(mesh.dim)
+  , kinematics_(kinematics)
+  , strain_(strain)
 {
   for (std::size_t i = 0; i < bodies.size(); ++i)
   {
@@ -95,21 +97,22 @@ void RigidBodies::read_conditions(const BoundaryOptions &entry, RigidBody &body)
 {
   using Kind = RigidComponent::Kind;
   if (!entry.traction.empty() || entry.pressure || !entry.spring.empty() || !entry.body_force.empty())
-    throw UserError(entry.where, "rigid body '" + body.name +
-                                   "' takes displacement, rotation, force or moment; no traction, pressure, spring or "
-                                   "body force");
+    throw UserError(entry.where,
+                    "rigid body '" + body.name +
+                        "' takes displacement, rotation, force or moment; no traction, pressure, spring or "
+                        "body force");
   const bool rotates = !entry.rotation.empty() || !entry.moment.empty();
   if (rotates && (body.shape || kinematics_ == Kinematics::axisymmetric))
-    throw UserError(entry.where, body.shape ? "the analytic rigid body '" + body.name +
-                                                "' does not rotate; mesh it if it must"
-                                            : "a rigid body does not rotate in axisymmetry");
+    throw UserError(entry.where, body.shape
+                                     ? "the analytic rigid body '" + body.name + "' does not rotate; mesh it if it must"
+                                     : "a rigid body does not rotate in axisymmetry");
   for (const auto *conditions : {&entry.displacement, &entry.force})
     for (const auto &[component, expression] : *conditions)
     {
       if (kinematics_ == Kinematics::axisymmetric && component == 0)
         throw UserError(expression.where, "a rigid body moves only along the axis, y, in axisymmetry");
-      set_component(body.translation[component],
-                    conditions == &entry.force ? Kind::free : Kind::prescribed, expression, entry.where, body.name);
+      set_component(body.translation[component], conditions == &entry.force ? Kind::free : Kind::prescribed, expression,
+                    entry.where, body.name);
     }
   for (const auto *conditions : {&entry.rotation, &entry.moment})
     for (const auto &[component, expression] : *conditions)
@@ -119,7 +122,7 @@ void RigidBodies::read_conditions(const BoundaryOptions &entry, RigidBody &body)
   { return std::any_of(body.rotation.begin(), body.rotation.end(), [&](const auto &r) { return r.kind == kind; }); };
   if (strain_ == Strain::finite && has(Kind::free) && has(Kind::prescribed))
     throw UserError(entry.where, "rigid body '" + body.name +
-                                   "' has a prescribed and a free rotation; in finite strain give one kind only");
+                                     "' has a prescribed and a free rotation; in finite strain give one kind only");
 }
 
 void RigidBodies::number_unknowns()

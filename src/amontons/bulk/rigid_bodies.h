@@ -29,10 +29,10 @@ struct RigidComponent
 struct RigidBody
 {
   std::string name;
-  int option = 0;                ///< position in the deck's bodies
-  std::vector<Index> nodes;      ///< nodal positions; an extra node is numbered from n_mesh_nodes on
+  int option = 0;           ///< position in the deck's bodies
+  std::vector<Index> nodes; ///< nodal positions; an extra node is numbered from n_mesh_nodes on
   std::optional<Shape> shape;
-  Eigen::Vector3d point{0, 0, 0};///< reference place of its point: mean of its nodes, or the shape's
+  Eigen::Vector3d point{0, 0, 0}; ///< reference place of its point: mean of its nodes, or the shape's
   std::array<RigidComponent, 3> translation, rotation; ///< in the plane rotation only about z
 };
 

@@ -60,7 +60,7 @@ void Supports::add_entry(int entry, const BoundaryOptions &options, const Group 
   {
     if (is_rigid[node])
       throw UserError(options.where, "region '" + options.region +
-                                       "' has nodes of a rigid body; name the rigid body itself to move it");
+                                         "' has nodes of a rigid body; name the rigid body itself to move it");
     for (const auto &[component, function] : components)
       held_.push_back({node * mesh_.dim + component, function, entry});
   }
@@ -84,10 +84,10 @@ void Supports::merge(const std::vector<BoundaryOptions> &boundary, double end)
       if (std::abs(a - b) > 1e-12 * std::max(std::abs(a), std::abs(b)))
         throw UserError(boundary[held.entry].where,
                         "conflicting boundary conditions: component " + std::string(1, "xyz"[held.nodal % mesh_.dim]) +
-                          " of node " + std::to_string(mesh_.node_tags[held.nodal / mesh_.dim]) + " is moved by " +
-                          std::to_string(a) + " through region '" + boundary[first.entry].region + "' and by " +
-                          std::to_string(b) + " through region '" + boundary[held.entry].region + "' at t = " +
-                          std::to_string(time));
+                            " of node " + std::to_string(mesh_.node_tags[held.nodal / mesh_.dim]) + " is moved by " +
+                            std::to_string(a) + " through region '" + boundary[first.entry].region + "' and by " +
+                            std::to_string(b) + " through region '" + boundary[held.entry].region +
+                            "' at t = " + std::to_string(time));
     }
   }
   held_ = std::move(merged);

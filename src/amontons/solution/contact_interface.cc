@@ -12,10 +12,10 @@ namespace amontons
 {
 namespace
 {
-/// How far, in local coordinates, a projection may leave its face before the node looks for another.
-constexpr double face_hold = 0.02;
-/// After so many changes of face within an increment a node stays on its face until the increment ends.
-constexpr int max_face_changes = 6;
+/// How far, in local coordinates, a projection may leave its face before the node looks for another; and how far once
+/// it has changed its face often within the increment, so that a node at a vertex comes to rest.
+constexpr double face_hold = 0.02, tired_face_hold = 0.1;
+constexpr int many_face_changes = 4;
 /// A gap below this fraction of the local size counts as touching when the run starts.
 constexpr double touching = 1e-9;
 constexpr int max_nodes = 5;
@@ -134,15 +134,14 @@ bool ContactInterface::keeps_face(Index i, const Pair &found, std::span<const do
   const Pair &old = pairing_[i];
   if (old.face < 0 || found.face == old.face)
     return old.face >= 0;
-  if (n_face_changes_[i] >= max_face_changes)
-    return true;
+  const double hold = n_face_changes_[i] < many_face_changes ? face_hold : tired_face_hold;
   const ContactLinearisation now = linearise_with_origin(i, displacement, displacement);
   const bool triangle = target_->face(old.face).size() == 3;
   const double a = now.xi[0], b = dim_ == 2 ? 0.5 : now.xi[1];
   const double low = std::min(a, b), high = triangle ? a + b : std::max(a, b);
-  if (low < -face_hold || high > 1 + face_hold)
+  if (low < -hold || high > 1 + hold)
     return false;
-  return std::abs(now.gap) <= found.distance * (1 + 1e-6) || std::abs(now.gap) <= std::abs(found.gap);
+  return std::abs(now.gap) <= found.distance * (1 + 1e-6) || n_face_changes_[i] >= many_face_changes;
 }
 
 bool ContactInterface::detect(std::span<const double> displacement, double reach, bool keep)
@@ -225,6 +224,8 @@ Eigen::Vector3d ContactInterface::relative(Index i, std::span<const double> disp
 
 void ContactInterface::begin_increment(std::span<const double> start, std::span<const double> multipliers)
 {
+  if (!start_pairing_.empty())
+    pairing_ = start_pairing_; // what a failed attempt left is of no use
   for (Index i = 0; i < n_nodes(); ++i)
   {
     n_face_changes_[i] = 0;

@@ -66,6 +66,7 @@ public:
   {
     total_slip_ = result.slip;
     status_ = result.status;
+    start_pairing_ = pairing_;
   }
   /// Status at the end of the last increment.
   [[nodiscard]] ContactStatus committed_status(Index i) const { return status_[i]; }
@@ -94,13 +95,13 @@ private:
   Index shape_node_ = -1;
   std::vector<double> areas_, augmentation_;
   std::unique_ptr<Detector> detector_;
-  Pairing pairing_;
+  Pairing pairing_, start_pairing_; ///< now, and at the increment's beginning
   std::vector<int> n_face_changes_; ///< within the increment
   std::vector<Eigen::Vector3d> slip_origin_;
   std::vector<char> has_origin_;
   std::vector<double> start_gap_;
   std::vector<double> gap_offset_;                                   ///< initial overlap that is taken as zero
-  std::vector<ContactStatus> status_; ///< at the increment's beginning
+  std::vector<ContactStatus> status_;                                ///< at the increment's beginning
   std::vector<double> total_slip_;                                   ///< [n * (dim-1)]
   std::vector<std::array<Eigen::Vector3d, max_tangents>> old_frame_; ///< of nodes whose face changed
   std::vector<Index> changed_;
