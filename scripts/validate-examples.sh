@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs all examples: convergence, Newton iterations, and figures against references (about ... minutes).
+# Runs all examples: convergence, Newton iterations, and figures against references (about 10 minutes).
 #   scripts/validate-examples.sh [name ...]    only the examples of these names
 #   AMONTONS=path/to/amontons uses that program instead of building one.
 set -euo pipefail

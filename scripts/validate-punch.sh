@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Stick radius, load and slip under the rigid punch against exact values (about ... minutes).
+# Stick radius, load and slip under the rigid punch against exact values (about 4 minutes).
 #   scripts/validate-punch.sh [n ...]    meshes of n cells under the punch, default 100 200 400
 #   AMONTONS=path/to/amontons uses that program instead of building one.
 set -euo pipefail
