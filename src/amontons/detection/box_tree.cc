@@ -2,6 +2,7 @@
 
 #include "amontons/detection/hilbert.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace amontons
@@ -23,25 +24,9 @@ void BoxTree<dim>::order_by(std::span<const std::array<double, static_cast<std::
 template<int dim>
 void BoxTree<dim>::refit(std::span<const Box> boxes)
 {
-  std::array<double, dim> low, high;
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
-  for (const Box &box : boxes)
-    for (int c = 0; c < dim; ++c)
-    {
-      low[c] = std::min(low[c], box[c]);
-      high[c] = std::max(high[c], box[c + dim]);
-    }
-  double size = 0;
-  for (int c = 0; c < dim && !boxes.empty(); ++c)
-  {
-    origin_[c] = 0.5 * (low[c] + high[c]);
-    size = std::max(size, high[c] - low[c]);
-  }
-  const auto slack = static_cast<float>(size * 2.4e-7);
-
+  const float slack = centre_on(boxes);
   constexpr float far = std::numeric_limits<float>::infinity();
-  for (std::size_t level = 0; level + 1 < level_begin_.size(); ++level)
+  for (std::int32_t level = 0; level <= top_level(); ++level)
   {
     Node &last = nodes_[level_begin_[level + 1] - 1]; // the only one that may have fewer than eight children
     for (int c = 0; c < dim; ++c)
@@ -57,25 +42,53 @@ void BoxTree<dim>::refit(std::span<const Box> boxes)
       nodes_[i / width].high[c][i % width] = static_cast<float>(boxes[i][c + dim] - origin_[c]) + slack;
     }
   extent_ = 0;
-  for (std::size_t level = 1; level < level_begin_.size(); ++level)
-    for (std::size_t child = level_begin_[level - 1]; child < level_begin_[level]; ++child)
-    {
-      const std::size_t i = child - level_begin_[level - 1];
-      Node *parent = level + 1 < level_begin_.size() ? &nodes_[level_begin_[level] + i / width] : nullptr;
-      for (int c = 0; c < dim; ++c)
-      {
-        const float child_low = nodes_[child].low[c].minCoeff(), child_high = nodes_[child].high[c].maxCoeff();
-        if (level == 1)
-          extent_ += child_high - child_low;
-        if (parent)
-        {
-          parent->low[c][i % width] = child_low;
-          parent->high[c][i % width] = child_high;
-        }
-      }
-    }
+  for (std::int32_t level = 0; level <= top_level(); ++level)
+    refit_parents(level);
   if (ordered_extent_ == 0)
     ordered_extent_ = extent_;
+}
+
+// Sets the origin, and tells by how much boxes must grow to hold what is rounded to single precision about it.
+template<int dim>
+float BoxTree<dim>::centre_on(std::span<const Box> boxes)
+{
+  Box all;
+  std::fill_n(all.begin(), dim, std::numeric_limits<double>::infinity());
+  std::fill_n(all.begin() + dim, dim, -std::numeric_limits<double>::infinity());
+  for (const Box &box : boxes)
+    for (int c = 0; c < dim; ++c)
+    {
+      all[c] = std::min(all[c], box[c]);
+      all[c + dim] = std::max(all[c + dim], box[c + dim]);
+    }
+  double size = 0;
+  for (int c = 0; c < dim && !boxes.empty(); ++c)
+  {
+    origin_[c] = 0.5 * (all[c] + all[c + dim]);
+    size = std::max(size, all[c + dim] - all[c]);
+  }
+  return static_cast<float>(size * 2.4e-7);
+}
+
+// Sets the boxes of a level's nodes in their parents, and adds up the leaves' extents.
+template<int dim>
+void BoxTree<dim>::refit_parents(std::int32_t level)
+{
+  for (std::size_t child = level_begin_[level]; child < level_begin_[level + 1]; ++child)
+  {
+    const std::size_t i = child - level_begin_[level];
+    for (int c = 0; c < dim; ++c)
+    {
+      const float low = nodes_[child].low[c].minCoeff(), high = nodes_[child].high[c].maxCoeff();
+      if (level == 0)
+        extent_ += high - low;
+      if (level == top_level())
+        continue;
+      Node &parent = nodes_[level_begin_[level + 1] + i / width];
+      parent.low[c][i % width] = low;
+      parent.high[c][i % width] = high;
+    }
+  }
 }
 
 template<int dim>

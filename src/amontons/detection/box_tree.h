@@ -83,6 +83,8 @@ private:
   /// Distances to boxes are rounded: they are compared with a bound a little larger than asked.
   static float rounded_up(double squared_bound) { return (1 + 1e-5F) * static_cast<float>(squared_bound); }
 
+  float centre_on(std::span<const Box> boxes);
+  void refit_parents(std::int32_t level);
   [[nodiscard]] FloatPoint relative(const double *x) const;
   [[nodiscard]] std::int32_t top_level() const { return static_cast<std::int32_t>(level_begin_.size()) - 2; }
   [[nodiscard]] const Node &node(const Entry &entry) const { return nodes_[level_begin_[entry.level] + entry.index]; }
