@@ -24,6 +24,8 @@ void BoxTree<dim>::order_by(std::span<const std::array<double, static_cast<std::
 template<int dim>
 void BoxTree<dim>::refit(std::span<const Box> boxes)
 {
+  if (boxes.empty())
+    return;
   const float slack = centre_on(boxes);
   constexpr float far = std::numeric_limits<float>::infinity();
   for (std::int32_t level = 0; level <= top_level(); ++level)
