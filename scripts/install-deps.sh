@@ -32,16 +32,17 @@ as_root()
 
 missing_packages()
 {
-  local installed
-  installed=$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null |
-    sed -n 's/^installed //p' | sort -u)
+  local known installed
+  # Fails where it does not know one of them, after it has printed the others.
+  known=$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null || true)
+  installed=$(sed -n 's/^installed //p' <<<"$known" | sort -u)
   comm -23 <(printf '%s\n' "${packages[@]}" | sort -u) <(printf '%s\n' "$installed")
 }
 
 select_openblas()
 {
   local library arch wanted
-  arch=$(dpkg-architecture --query DEB_HOST_MULTIARCH)
+  arch=$(g++ -print-multiarch)
   for library in libblas.so.3 liblapack.so.3; do
     wanted=/usr/lib/$arch/openblas-pthread/$library
     if [ "$(readlink --canonicalize "/usr/lib/$arch/$library")" != "$(readlink --canonicalize "$wanted")" ]; then
