@@ -76,7 +76,6 @@ BodyAssembly loaded(const Mesh &mesh, Kinematics kinematics, Strain strain, cons
   return BodyAssembly(mesh, kinematics, strain, {elastic_body(MaterialLaw::neo_hookean, 2, 0.3)}, {load});
 }
 
-/// Integral of f over the block's right face x = 2.5 (in axisymmetry the ring), or its volume.
 TEST(Loads, TractionHasItsTotal)
 {
   for (const auto &[shape, kinematics] : all_kinds)
@@ -242,13 +241,9 @@ TEST(Loads, AssembledTangentIsTheDerivativeOfTheForces)
       pressure.pressure = expression("0.4*(1+x)");
       spring.spring = {{0, expression("1.5")}, {1, expression("0.5*y")}};
       traction.traction = {{0, expression("1")}};
-      const std::vector<Index> halves = [&]
-      {
-        std::vector<Index> subdomain;
-        for (Index c = 0; c < mesh.cells.size(); ++c)
-          subdomain.push_back(c % 2);
-        return subdomain;
-      }();
+      std::vector<Index> halves;
+      for (Index c = 0; c < mesh.cells.size(); ++c)
+        halves.push_back(c % 2);
       BodyAssembly assembly(mesh, kinematics, strain, {elastic_body(MaterialLaw::neo_hookean, 2, 0.3)},
                             {pressure, spring, traction}, halves);
       auto u = some_displacement(mesh);

@@ -135,8 +135,7 @@ Complex isochoric(double shear, const Eigen::Matrix<Complex, 3, 3> &F)
   return shear / 2 * (std::pow(F.determinant(), -2.0 / 3) * C.trace() - 3.0);
 }
 
-/// W with F33 chosen so that W is least, by the stationary point of W's own derivative: bisection on the real part,
-/// then Newton steps with difference quotients, which the complex part follows.
+/// W at the F33 where it is least, found by bisection on a difference quotient of W.
 Complex plane_stress_energy(const ElasticModuli &moduli, Eigen::Matrix<Complex, 3, 3> F)
 {
   const auto energy = [&](Complex stretch)
@@ -144,7 +143,6 @@ Complex plane_stress_energy(const ElasticModuli &moduli, Eigen::Matrix<Complex, 
     F(2, 2) = stretch;
     return isochoric(moduli.shear, F) + volumetric(moduli.bulk, F.determinant());
   };
-  // dW is real where F is: a central difference of sixth order keeps it independent of the law's own derivative.
   const auto slope = [&](Complex s)
   {
     const double h = 1e-2;

@@ -134,14 +134,14 @@ TEST_P(SoftTube, FiniteStrainFollowsTheIncompressibleSolution)
   const auto exact = [&](double R) { return std::sqrt(R * R + c) - R; };
   const double coarse = tube(GetParam(), 8, Strain::finite, 0.49999, std::nullopt, pressure, exact);
   const double fine = tube(GetParam(), 16, Strain::finite, 0.49999, std::nullopt, pressure, exact);
-  EXPECT_LT(fine, 6e-3);
-  EXPECT_GT(coarse / fine, 3);
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_GT(coarse / fine, 3.4);
 }
 
 TEST_P(SoftTube, MeanDilatationDoesNotLock)
 {
   const auto exact = [](double R) { return lame_tube(R, 1, 0.4999, 1e-3); };
-  EXPECT_LT(tube(GetParam(), 8, Strain::small, 0.4999, std::nullopt, 1e-3, exact), 0.02);
+  EXPECT_LT(tube(GetParam(), 8, Strain::small, 0.4999, std::nullopt, 1e-3, exact), 4e-3);
   EXPECT_GT(tube(GetParam(), 8, Strain::small, 0.4999, false, 1e-3, exact), 0.4);
 }
 

@@ -13,7 +13,8 @@ namespace amontons
 /// Forces and tangent of the deformable bodies and of the loads on them, subdomain by subdomain.
 ///
 /// Nodal vectors run over all nodes of the mesh, [n_nodes * dim]; entries of nodes of no deformable cell stay zero.
-/// In axisymmetry forces are over the whole ring; in the plane per unit thickness.
+/// In axisymmetry forces are over the whole ring; in the plane per unit thickness (in plane stress of the reference,
+/// for a following pressure too).
 class BodyAssembly
 {
 public:
@@ -37,11 +38,13 @@ public:
   /// @return false where a cell is turned inside out (det F <= 0); then the values are not to be used
   [[nodiscard]] bool assemble_tangent(std::span<const double> displacement, double time);
 
-  /// Internal and external forces, overwritten. @return as above.
+  /// Internal and external forces, overwritten; springs are internal. Once the constant tangent is assembled the
+  /// internal forces are its product with the displacement. @return as above
   [[nodiscard]] bool forces(std::span<const double> displacement, double time, std::span<double> internal,
                             std::span<double> external) const;
 
-  /// Cauchy stress, cell means, [n_cells * 6]: xx, yy, zz, xy, yz, xz; zero in rigid cells.
+  /// Cauchy stress, cell means (in finite strain over the current volume), [n_cells * 6]: xx, yy, zz, xy, yz, xz; zero
+  /// in rigid cells. @throws NumericalFailure where a cell is turned inside out
   [[nodiscard]] std::vector<double> stress(std::span<const double> displacement) const;
 
   /// Body of each cell, position in `bodies`, -1 for none. [n_cells]
