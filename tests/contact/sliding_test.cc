@@ -302,7 +302,7 @@ TEST(Degenerate, CentreOfASphereAndApexOfACone)
   EXPECT_LT((against(cone, below).normal - Vector3d(0, -1, 0)).norm(), 1e-15);
   EXPECT_DOUBLE_EQ(against(cone, below).gap, 0.2);
   EXPECT_DOUBLE_EQ(against(cone, -below).gap, -0.2);
-  EXPECT_TRUE(against(cone, origin).gap_hessian.isZero());
+  EXPECT_TRUE(against(cone, origin).gap_direction_gradient.isZero());
 }
 } // namespace
 } // namespace amontons::test

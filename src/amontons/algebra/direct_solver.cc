@@ -44,8 +44,11 @@ public:
     check_petsc(KSPGetPC(ksp_.get(), &pc), "factorisation");
     check_petsc(PCGetFailedReason(pc, &reason), "factorisation");
     if (reason != PC_NOERROR)
+    {
+      create_ksp(); // a factorisation that failed is of no further use to PETSc
       throw NumericalFailure(reason == PC_FACTOR_OUTMEMORY ? "the factorisation ran out of memory"
                                                            : "the tangent matrix is singular");
+    }
   }
 
   void solve(std::span<const double> rhs, std::span<double> solution) override

@@ -70,10 +70,10 @@ ContactElement zero_element(ContactStatus status, int n_dofs, int n_multipliers)
 
 void add_normal(ContactElement &element, const ContactLinearisation &lin, double sigma_n, double r)
 {
-  element.force = sigma_n * lin.gap_gradient;
-  element.stiffness = sigma_n * lin.gap_hessian;
-  element.stiffness.noalias() += r * lin.gap_gradient * lin.gap_gradient.transpose();
-  element.force_by_multiplier.col(0) = lin.gap_gradient;
+  element.force = sigma_n * lin.gap_direction;
+  element.stiffness = sigma_n * lin.gap_direction_gradient;
+  element.stiffness.noalias() += r * lin.gap_direction * lin.gap_gradient.transpose();
+  element.force_by_multiplier.col(0) = lin.gap_direction;
   element.constraint[0] = lin.gap;
   element.constraint_by_position.row(0) = lin.gap_gradient.transpose();
 }

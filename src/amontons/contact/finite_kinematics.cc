@@ -25,6 +25,46 @@ Metric<Scalar, n_xi> inverse(const Metric<Scalar, n_xi> &a)
   }
 }
 
+/// Normals at a face's nodes in the frame of the face's centre: tangents first, the normal last.
+template<int dim, int n_nodes>
+using LocalNormals = std::array<Point<double, dim>, n_nodes>;
+
+inline double value_of(double x) { return x; }
+template<class Scalar, int dim, int n_nodes>
+Frame<Scalar, dim> central_frame(const FaceNodes<Scalar, dim, n_nodes> &face)
+{
+  constexpr double at = n_nodes == 3 ? 1. / 3 : 0.5;
+  const auto shape = shape_functions<n_nodes>(Chart{}, std::array<Scalar, 2>{at, at});
+  std::array<Point<Scalar, dim>, dim - 1> base;
+  for (int a = 0; a < dim - 1; ++a)
+    base[a] = combine(shape.derivative[a], face);
+  return frame_of<Scalar, dim>(base);
+}
+
+/// The normal interpolated between the nodes' (held constant beyond the face), and the tangents turned with it by the
+/// least rotation.
+template<class Scalar, int dim, int n_nodes>
+Frame<Scalar, dim> smooth_frame(const Frame<Scalar, dim> &frame, const FaceNodes<Scalar, dim, n_nodes> &face,
+                                const std::array<Scalar, n_nodes> &weights, const LocalNormals<dim, n_nodes> &normals)
+{
+  const Frame<Scalar, dim> centre = central_frame<Scalar, dim, n_nodes>(face);
+  Point<Scalar, dim> sum = centre.normal * Scalar(0.);
+  for (int i = 0; i < n_nodes; ++i)
+    if (value_of(weights[i]) > 0)
+    {
+      sum += weights[i] * (normals[i][dim - 1] * centre.normal);
+      for (int a = 0; a < dim - 1; ++a)
+        sum += weights[i] * (normals[i][a] * centre.tangent[a]);
+    }
+  Frame<Scalar, dim> out;
+  out.normal = sum * (1. / norm<Scalar, dim>(sum));
+  const Point<Scalar, dim> bisector = frame.normal + out.normal;
+  const Scalar scale = 1. / (1. + frame.normal.dot(out.normal));
+  for (int a = 0; a < dim - 1; ++a)
+    out.tangent[a] = frame.tangent[a] - bisector * (frame.tangent[a].dot(out.normal) * scale);
+  return out;
+}
+
 /// Gap, slip and their first variations at a given projection, for any scalar type. With T_a = [a_a, -N_i a_a],
 /// N_a = [0, -N_i,a n] and D^a = A^ab (T_b - g N_b) = grad xi^a (Laursen, Simo 1993, IJNME 36), grad g_n = [n, -N_i n]
 /// and the slip direction is (e_c . a_a) D^a.
@@ -41,9 +81,12 @@ struct FaceKinematics
   Point<Scalar, dim> closest;
   Scalar gap;
   Metric<Scalar, n_xi> a_inverse;
+  bool is_smooth;
+  Frame<Scalar, dim> force_frame; ///< directions of the forces; `frame` but for smoothed normals
 
+  /// @param normals null for the face's own normal
   FaceKinematics(const Chart &chart, const Point<Scalar, dim> &x, const FaceNodes<Scalar, dim, n_nodes> &face,
-                 const std::array<Scalar, 2> &xi)
+                 const std::array<Scalar, 2> &xi, const LocalNormals<dim, n_nodes> *normals)
     : shape(shape_functions<n_nodes>(chart, xi))
   {
     for (int a = 0; a < n_xi; ++a)
@@ -62,16 +105,22 @@ struct FaceKinematics
       a_matrix[n_xi - 1][0] -= curvature;
     }
     a_inverse = inverse<Scalar, n_xi>(a_matrix);
+    is_smooth = normals != nullptr;
+    force_frame = is_smooth ? smooth_frame<Scalar, dim, n_nodes>(frame, face, shape.value, *normals) : frame;
   }
 
-  [[nodiscard]] Vector gap_gradient() const
+  /// A unit force along `direction` on the impactor node and its reaction on the face.
+  [[nodiscard]] Vector opposed(const Point<Scalar, dim> &direction) const
   {
     Vector out;
-    out.template head<dim>() = frame.normal;
+    out.template head<dim>() = direction;
     for (int i = 0; i < n_nodes; ++i)
-      out.template segment<dim>(dim * (1 + i)) = frame.normal * -shape.value[i];
+      out.template segment<dim>(dim * (1 + i)) = direction * -shape.value[i];
     return out;
   }
+
+  [[nodiscard]] Vector gap_gradient() const { return opposed(frame.normal); }
+  [[nodiscard]] Vector gap_direction() const { return opposed(force_frame.normal); }
 
   /// sum_a weight_a grad xi^a
   [[nodiscard]] Vector projection_gradient(const std::array<Scalar, n_xi> &weight) const
@@ -100,6 +149,8 @@ struct FaceKinematics
 
   [[nodiscard]] Vector slip_direction(int c) const
   {
+    if (is_smooth)
+      return opposed(force_frame.tangent[c]);
     std::array<Scalar, n_xi> weight;
     for (int a = 0; a < n_xi; ++a)
       weight[a] = frame.tangent[c].dot(base[a]);
@@ -129,10 +180,26 @@ std::array<double, n_nodes> origin_weights(std::span<const double> slip_origin, 
   return shape_functions<n_nodes>(alpha.chart, alpha.xi).value;
 }
 
+/// @param normals [n_nodes * dim]
+template<int dim, int n_nodes>
+LocalNormals<dim, n_nodes> local_normals(std::span<const double> normals, std::span<const double> face_at_start)
+{
+  const Frame<double, dim> frame = central_frame<double, dim, n_nodes>(gather<dim, n_nodes>(face_at_start));
+  LocalNormals<dim, n_nodes> out;
+  for (int i = 0; i < n_nodes; ++i)
+  {
+    const Point<double, dim> normal = Eigen::Map<const Point<double, dim>>(normals.data() + i * dim);
+    for (int a = 0; a < dim - 1; ++a)
+      out[i][a] = frame.tangent[a].dot(normal);
+    out[i][dim - 1] = frame.normal.dot(normal);
+  }
+  return out;
+}
+
 template<int dim, int n_nodes>
 ContactLinearisation linearise(std::span<const double> impactor, std::span<const double> face_coordinates,
                                std::span<const double> slip_origin, std::span<const double> face_at_start,
-                               std::array<double, 2> xi_guess)
+                               std::array<double, 2> xi_guess, std::span<const double> normals_at_start)
 {
   constexpr int n_dofs = dim * (1 + n_nodes), n_xi = dim - 1;
   AMONTONS_ASSERT(impactor.size() == dim && slip_origin.size() == dim);
@@ -142,8 +209,16 @@ ContactLinearisation linearise(std::span<const double> impactor, std::span<const
   const Projection projection = project<dim, n_nodes>(nodes, x, xi_guess);
   const auto weights = origin_weights<dim, n_nodes>(slip_origin, face_at_start, projection.xi);
 
+  LocalNormals<dim, n_nodes> local;
+  const LocalNormals<dim, n_nodes> *normals = nullptr;
+  if (!normals_at_start.empty())
+  {
+    local = local_normals<dim, n_nodes>(normals_at_start, face_at_start);
+    normals = &local;
+  }
+
   // xi is an implicit function of the positions: its gradient in closed form, then everything in dual numbers.
-  const FaceKinematics<double, dim, n_nodes> at(projection.chart, x, nodes, projection.xi);
+  const FaceKinematics<double, dim, n_nodes> at(projection.chart, x, nodes, projection.xi, normals);
   std::array<Dual<n_dofs>, 2> xi{projection.xi[0], projection.xi[1]};
   for (int a = 0; a < n_xi; ++a)
   {
@@ -160,7 +235,7 @@ ContactLinearisation linearise(std::span<const double> impactor, std::span<const
     for (int i = 0; i < n_nodes; ++i)
       nodes_dual[i][k] = Dual<n_dofs>::variable(nodes[i][k], dim * (1 + i) + k);
   }
-  const FaceKinematics<Dual<n_dofs>, dim, n_nodes> dual(projection.chart, x_dual, nodes_dual, xi);
+  const FaceKinematics<Dual<n_dofs>, dim, n_nodes> dual(projection.chart, x_dual, nodes_dual, xi, normals);
   const Point<Dual<n_dofs>, dim> chord = dual.closest - combine(weights, nodes_dual);
 
   ContactLinearisation out;
@@ -168,7 +243,9 @@ ContactLinearisation linearise(std::span<const double> impactor, std::span<const
   out.gap = at.gap;
   out.xi = projection.xi;
   out.normal.template head<dim>() = at.frame.normal;
-  split<n_dofs>(dual.gap_gradient(), out.gap_gradient, out.gap_hessian);
+  const auto gap_gradient = at.gap_gradient();
+  out.gap_gradient = gap_gradient;
+  split<n_dofs>(dual.gap_direction(), out.gap_direction, out.gap_direction_gradient);
   for (int c = 0; c < n_xi; ++c)
   {
     out.tangent[c].setZero();
@@ -187,7 +264,7 @@ std::pair<Projection, double> projected_gap(const Point<double, dim> &x, const F
                                             std::array<double, 2> xi_guess)
 {
   const Projection projection = project<dim, n_nodes>(face, x, xi_guess);
-  return {projection, FaceKinematics<double, dim, n_nodes>(projection.chart, x, face, projection.xi).gap};
+  return {projection, FaceKinematics<double, dim, n_nodes>(projection.chart, x, face, projection.xi, nullptr).gap};
 }
 
 template<int dim, int n_nodes>
@@ -222,14 +299,14 @@ double closing_fraction(double gap_start, double gap_now)
 
 ContactLinearisation linearise_finite(int dim, std::span<const double> impactor, std::span<const double> face,
                                       std::span<const double> slip_origin, std::span<const double> face_at_start,
-                                      std::array<double, 2> xi_guess)
+                                      std::array<double, 2> xi_guess, std::span<const double> normals_at_start)
 {
   if (dim == 2 && face.size() == 4)
-    return linearise<2, 2>(impactor, face, slip_origin, face_at_start, xi_guess);
+    return linearise<2, 2>(impactor, face, slip_origin, face_at_start, xi_guess, normals_at_start);
   if (dim == 3 && face.size() == 9)
-    return linearise<3, 3>(impactor, face, slip_origin, face_at_start, xi_guess);
+    return linearise<3, 3>(impactor, face, slip_origin, face_at_start, xi_guess, normals_at_start);
   AMONTONS_ASSERT(dim == 3 && face.size() == 12);
-  return linearise<3, 4>(impactor, face, slip_origin, face_at_start, xi_guess);
+  return linearise<3, 4>(impactor, face, slip_origin, face_at_start, xi_guess, normals_at_start);
 }
 
 Eigen::Vector3d closing_origin_finite(int dim, std::span<const double> impactor, std::span<const double> face,

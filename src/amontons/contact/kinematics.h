@@ -17,10 +17,13 @@ namespace amontons
 /// `slip_origin` on the (extended) face as it was at tau and a datum when differentiating. On segments and triangles
 /// that is sum_a a_a (xi^a - alpha^a) (THEORY.md section 3; the paper, section 2); on bilinear faces it stays exact in
 /// a plane.
+/// @param normals_at_start unit normals at the face's nodes at tau, [n_face_nodes * dim]; they turn with the face. The
+///        forces act along the normal interpolated between them; gap and slip are measured on the face as ever. Empty:
+///        the face's own normal.
 /// @throws NumericalFailure if the face has collapsed
 ContactLinearisation linearise_finite(int dim, std::span<const double> impactor, std::span<const double> face,
                                       std::span<const double> slip_origin, std::span<const double> face_at_start,
-                                      std::array<double, 2> xi_guess);
+                                      std::array<double, 2> xi_guess, std::span<const double> normals_at_start = {});
 
 /// Small strain: normal, tangents and xi of the reference geometry.
 /// @param reference_impactor, reference_face reference coordinates, laid out as above

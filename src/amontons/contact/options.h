@@ -12,6 +12,13 @@ enum class InitialOverlap
   adjust   ///< the gap is measured from its initial value: no stress comes of it
 };
 
+/// Along which normals contact forces act on a meshed target in finite strain.
+enum class TargetNormals
+{
+  faceted, ///< of the face: they jump where a node slides from one face to the next
+  smoothed ///< averaged at the target's nodes and interpolated; edges sharper than 45 degrees stay sharp
+};
+
 struct ContactOptions
 {
   std::string name;
@@ -19,6 +26,7 @@ struct ContactOptions
   std::string target;              ///< physical group of faces, or the name of an analytic rigid body
   double friction_coefficient = 0; ///< Coulomb's mu, >= 0
   InitialOverlap initial_overlap = InitialOverlap::resolve;
+  TargetNormals normals = TargetNormals::smoothed;
   double augmentation = 1; ///< factor on the automatic r, > 0; the converged result does not depend on it
   SourceLocation where;
 };

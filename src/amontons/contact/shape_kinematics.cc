@@ -168,7 +168,8 @@ ContactLinearisation linearise(bool axisymmetric, const Shape &shape, std::span<
   out.gap = gap.value;
   out.normal.template head<dim>() = values<dim>(frame.normal);
   out.gap_gradient = opposed<dim>(values<dim>(frame.normal));
-  out.gap_hessian = opposed_gradient<dim>(frame.normal);
+  out.gap_direction = out.gap_gradient;
+  out.gap_direction_gradient = opposed_gradient<dim>(frame.normal);
   for (int c = 0; c < dim - 1; ++c)
   {
     const Dual<dim> slip = chord.dot(frame.tangent[c]);
@@ -196,7 +197,8 @@ ContactLinearisation linearise_reference(bool axisymmetric, const Shape &shape, 
   out.gap = gap + frame.normal.dot(relative);
   out.normal.template head<dim>() = frame.normal;
   out.gap_gradient = opposed<dim>(frame.normal);
-  out.gap_hessian.setZero(2 * dim, 2 * dim);
+  out.gap_direction = out.gap_gradient;
+  out.gap_direction_gradient.setZero(2 * dim, 2 * dim);
   for (int c = 0; c < dim - 1; ++c)
   {
     out.tangent[c].setZero();

@@ -39,7 +39,8 @@ ContactLinearisation linearise(std::span<const double> impactor, std::span<const
   out.normal.head<dim>() = frame.normal;
   out.gap_gradient = relative_row<dim, n_nodes>(frame.normal, shape.value);
   out.gap = (x - combine(shape.value, nodes)).dot(frame.normal) + out.gap_gradient.dot(u);
-  out.gap_hessian.setZero(n_dofs, n_dofs);
+  out.gap_direction = out.gap_gradient;
+  out.gap_direction_gradient.setZero(n_dofs, n_dofs);
   for (int c = 0; c < dim - 1; ++c)
   {
     out.tangent[c].setZero();

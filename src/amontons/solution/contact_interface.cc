@@ -1,7 +1,9 @@
 #include "amontons/solution/contact_interface.h"
 
 #include "amontons/bulk/surface_extraction.h"
+#include "amontons/contact/frame.h"
 #include "amontons/contact/kinematics.h"
+#include "amontons/surface/normals.h"
 
 #include <Eigen/Geometry>
 
@@ -19,6 +21,8 @@ constexpr int many_face_changes = 4;
 /// A gap below this fraction of the local size counts as touching when the run starts.
 constexpr double touching = 1e-9;
 constexpr int max_nodes = 5;
+/// Edges of the target sharper than this stay sharp where normals are smoothed.
+constexpr double sharp_angle = 0.25 * 3.14159265358979323846;
 
 } // namespace
 
@@ -226,6 +230,7 @@ void ContactInterface::begin_increment(std::span<const double> start, std::span<
 {
   if (!start_pairing_.empty())
     pairing_ = start_pairing_; // what a failed attempt left is of no use
+  smooth_target_normals(start);
   for (Index i = 0; i < n_nodes(); ++i)
   {
     n_face_changes_[i] = 0;
@@ -246,6 +251,26 @@ void ContactInterface::begin_increment(std::span<const double> start, std::span<
     const double size = std::pow(areas_[i], 1.0 / (dim_ - 1));
     has_origin_[i] = multipliers[multiplier(i)] < 0 || gap <= touching * size;
   }
+}
+
+void ContactInterface::smooth_target_normals(std::span<const double> start)
+{
+  if (small_ || analytic_ || options_.normals == TargetNormals::faceted)
+    return;
+  std::vector<double> x(target_->reference);
+  for (Index i = 0; i < target_->n_nodes(); ++i)
+    for (int c = 0; c < dim_; ++c)
+      x[i * dim_ + c] += start[static_cast<std::size_t>(target_->node_ids[i]) * dim_ + c];
+  target_normals_ = smoothed_normals(*target_, x, sharp_angle);
+}
+
+std::span<const double> ContactInterface::normals_of_face(Index i) const
+{
+  if (target_normals_.empty())
+    return {};
+  const auto first = static_cast<std::size_t>(target_->face_offsets[pairing_[i].face]) * dim_;
+  const auto end = static_cast<std::size_t>(target_->face_offsets[pairing_[i].face + 1]) * dim_;
+  return {target_normals_.data() + first, end - first};
 }
 
 ContactLinearisation ContactInterface::linearise_with_origin(Index i, std::span<const double> displacement,
@@ -279,7 +304,7 @@ ContactLinearisation ContactInterface::linearise_with_origin(Index i, std::span<
     out = analytic_ ? linearise_shape(dim_, axisymmetric_, *analytic_, {now.data(), d}, {now.data() + d, d}, origin,
                                       {then.data() + d, d})
                     : linearise_finite(dim_, {now.data(), d}, {now.data() + d, rest}, origin, {then.data() + d, rest},
-                                       pairing_[i].xi);
+                                       pairing_[i].xi, normals_of_face(i));
   }
   out.gap -= gap_offset_[i];
   return out;
@@ -365,7 +390,7 @@ ContactResult ContactInterface::result(std::span<const double> displacement, std
     out.pressure[i] = -m.normal / areas_[i];
     out.max_pressure = std::max(out.max_pressure, out.pressure[i]);
     out.contact_area += areas_[i];
-    const ContactVector normal_force = -m.normal * now.gap_gradient;
+    const ContactVector normal_force = -m.normal * now.gap_direction;
     for (int c = 0; c < dim_; ++c)
       out.normal_force[c] += normal_force[c];
     ContactVector tangential_force = ContactVector::Zero(now.n_dofs());

@@ -82,6 +82,8 @@ private:
                            std::span<const double> start);
   void gather(std::span<const Index> nodes, std::span<const double> displacement, std::span<double> out) const;
   void add_reference(std::span<const Index> nodes, std::span<double> out) const;
+  [[nodiscard]] std::span<const double> normals_of_face(Index i) const;
+  void smooth_target_normals(std::span<const double> start);
   [[nodiscard]] Eigen::Vector3d relative(Index i, std::span<const double> displacement) const;
   [[nodiscard]] bool keeps_face(Index i, const Pair &found, std::span<const double> displacement) const;
 
@@ -96,6 +98,7 @@ private:
   std::vector<double> areas_, augmentation_;
   std::unique_ptr<Detector> detector_;
   Pairing pairing_, start_pairing_; ///< now, and at the increment's beginning
+  std::vector<double> target_normals_; ///< at the corners of the target's faces at the increment's beginning, or empty
   std::vector<int> n_face_changes_; ///< within the increment
   std::vector<Eigen::Vector3d> slip_origin_;
   std::vector<char> has_origin_;
