@@ -5,7 +5,7 @@ source "$(dirname "$0")/environment.sh"
 export PYTHONDONTWRITEBYTECODE=1
 
 bash scripts/install-deps.sh
-bash scripts/build.sh release
+bash scripts/build.sh release amontons_app
 
 results=out/punch
 build/release/app/amontons run examples/punch/punch.yaml --output "$results"
