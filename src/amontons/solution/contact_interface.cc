@@ -226,10 +226,13 @@ Eigen::Vector3d ContactInterface::relative(Index i, std::span<const double> disp
   return out;
 }
 
-void ContactInterface::begin_increment(std::span<const double> start, std::span<const double> multipliers)
+bool ContactInterface::begin_increment(std::span<const double> start, std::span<const double> multipliers)
 {
-  if (!start_pairing_.empty())
-    pairing_ = start_pairing_; // what a failed attempt left is of no use
+  const auto same_face = [](const Pair &a, const Pair &b) { return a.face == b.face; };
+  const bool restore =
+      !start_pairing_.empty() && !std::equal(pairing_.begin(), pairing_.end(), start_pairing_.begin(), same_face);
+  if (restore)
+    pairing_ = start_pairing_;
   smooth_target_normals(start);
   for (Index i = 0; i < n_nodes(); ++i)
   {
@@ -251,6 +254,7 @@ void ContactInterface::begin_increment(std::span<const double> start, std::span<
     const double size = std::pow(areas_[i], 1.0 / (dim_ - 1));
     has_origin_[i] = multipliers[multiplier(i)] < 0 || gap <= touching * size;
   }
+  return restore;
 }
 
 void ContactInterface::smooth_target_normals(std::span<const double> start)

@@ -48,8 +48,9 @@ public:
   /// @return whether the face of any node changed
   bool detect(std::span<const double> displacement, double reach, bool keep);
 
-  /// Takes note of the state at an increment's beginning: from where slip counts.
-  void begin_increment(std::span<const double> start, std::span<const double> multipliers);
+  /// Takes note of the state at an increment's beginning: from where slip counts. @return whether pairs that a failed
+  /// attempt had changed were put back
+  bool begin_increment(std::span<const double> start, std::span<const double> multipliers);
 
   /// Gap and slip of node i. Where the node was open at the beginning and is closed now for the first time, the slip's
   /// origin is the point where its gap vanished on the way (THEORY: the instant of closing).

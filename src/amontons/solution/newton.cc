@@ -10,6 +10,10 @@ namespace amontons
 namespace
 {
 constexpr int max_halvings = 8;
+/// In finite strain a step that makes the residual grow by more than this is halved, so many times at the most.
+/// Statuses that change may well make it grow for once.
+constexpr double allowed_growth = 2;
+constexpr int max_damping = 4;
 /// Times a set of statuses may come back before the increment is given up.
 constexpr int max_cycles = 6;
 /// A node that changed its status so often within an increment is named.
@@ -79,8 +83,11 @@ Newton::~Newton() = default;
 void Newton::begin_increment(const State &state, double reach)
 {
   reach_ = reach;
+  bool restored = false;
   for (ContactInterface &contact : model_.contacts())
-    contact.begin_increment(state.displacement, state.multipliers);
+    restored |= contact.begin_increment(state.displacement, state.multipliers);
+  if (restored)
+    contacts_.rebuild_pattern();
 }
 
 bool Newton::detect(State &state)
@@ -306,12 +313,14 @@ NewtonOutcome Newton::solve(State &state, double time)
       double share = damp ? 0.5 : 1;
       State next;
       Evaluation after;
-      for (int k = 0; k <= max_halvings && !after.valid; ++k, share *= 0.5)
+      for (int k = 0; k <= max_halvings; ++k, share *= 0.5)
       {
         next = model_.prescribe(model_.advance(now, step, share), time, share);
         detect(next);
         after = evaluate(next, start, time, {}, false);
-        if (after.valid)
+        const bool wild = !model_.small_strain() && at.pending_motion == 0 && k < max_damping &&
+                          after.norm > allowed_growth * at.norm;
+        if (after.valid && !wild)
           break;
       }
       if (!after.valid)
