@@ -16,7 +16,7 @@ enum class InitialOverlap
 enum class TargetNormals
 {
   faceted, ///< of the face: they jump where a node slides from one face to the next
-  smoothed ///< averaged at the target's nodes and interpolated; edges sharper than 45 degrees stay sharp
+  smoothed ///< averaged at the target's nodes and interpolated; edges sharper than 30 degrees stay sharp
 };
 
 struct ContactOptions

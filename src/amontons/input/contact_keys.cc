@@ -56,7 +56,7 @@ Section<ContactOptions> contact_keys()
               {{"smoothed", TargetNormals::smoothed}, {"faceted", TargetNormals::faceted}}, optional,
               "along which normals contact forces act on a meshed target in finite strain; smoothed: averaged at the "
               "target's nodes and interpolated, so that they do not jump where a node slides from face to face (edges "
-              "sharper than 45 degrees stay sharp); faceted: of each face");
+              "sharper than 30 degrees stay sharp); faceted: of each face");
   keys.number("augmentation", &ContactOptions::augmentation, positive, "1", optional,
               "factor on the augmentation parameter, which is found from the bodies' stiffness; the solution does not "
               "depend on it");

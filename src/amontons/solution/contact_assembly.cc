@@ -120,6 +120,23 @@ void ContactAssembly::rebuild_pattern()
   form_.set_constraints(std::move(patterns), std::move(rotations));
 }
 
+/// What sigma decides, but for a node whose slip would turn back within one step: it sticks for an iteration, since
+/// between slip one way and slip the other lies stick.
+ContactStatus ContactAssembly::decide_status(std::size_t block, const ContactLinearisation &now,
+                                             const Multipliers &lambda, double mu, double r)
+{
+  const ContactStatus status = contact_status(now, lambda, mu, r);
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  if (status == ContactStatus::slip && mu > 0)
+    for (int a = 0; a < now.n_tangents(); ++a)
+      direction += (lambda.tangential[a] + r * now.slip[a]) * now.tangent[a];
+  trial_direction_[block] = direction;
+  if (slip_direction_.empty() || direction.dot(slip_direction_[block]) >= 0)
+    return status;
+  trial_direction_[block].setZero();
+  return ContactStatus::stick;
+}
+
 ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t block, const State &state,
                                                     std::span<const double> start, std::span<const double> pending,
                                                     bool forced, bool first)
@@ -136,7 +153,7 @@ ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t 
   }
   const ContactLinearisation now = contact.linearise(i, state.displacement, start);
   const double mu = contact.options().friction_coefficient;
-  ContactStatus status = contact_status(now, lambda, mu, r);
+  ContactStatus status = decide_status(block, now, lambda, mu, r);
   if (first && status != ContactStatus::open && contact.committed_status(i) != ContactStatus::open)
     status = contact.committed_status(i);
   const bool force_closed = forced && status == ContactStatus::open;
@@ -286,6 +303,7 @@ ContactContribution ContactAssembly::evaluate(const State &state, std::span<cons
   out.prescribed_gap.assign(out.constraint.size(), 0);
   holding_.clear();
   candidates_.clear();
+  trial_direction_.assign(form_.constraints().size(), Eigen::Vector3d::Zero());
   std::map<Index, std::vector<Work>> special;
   for (int c = 0; c < static_cast<int>(model_.contacts().size()); ++c)
     for (Index i = 0; i < model_.contacts()[c].n_nodes(); ++i)

@@ -44,6 +44,11 @@ public:
   ContactContribution evaluate(const State &state, std::span<const double> start, std::span<const double> pending,
                                std::span<const std::pair<int, Index>> forced, bool first);
 
+  /// The last evaluation is the state the next step starts from: its directions of slip are the ones that may not
+  /// be reversed in one step. Forgotten at an increment's beginning.
+  void remember_slip() { slip_direction_ = trial_direction_; }
+  void forget_slip() { slip_direction_.clear(); }
+
   /// Closed nodes' rows and open nodes of the last evaluation, for FreeMotions.
   [[nodiscard]] const std::vector<HoldingNode> &holding() const { return holding_; }
   [[nodiscard]] const std::vector<CandidateNode> &candidates() const { return candidates_; }
@@ -59,6 +64,8 @@ private:
     ContactElement element;
   };
   void find_shared_nodes();
+  [[nodiscard]] ContactStatus decide_status(std::size_t block, const ContactLinearisation &now,
+                                            const Multipliers &lambda, double mu, double r);
   [[nodiscard]] Work make_element(int c, Index i, std::size_t block, const State &state, std::span<const double> start,
                                   std::span<const double> pending, bool forced, bool first);
   void drop_dependent_rows(std::span<Work *const> works, const State &state);
@@ -72,5 +79,6 @@ private:
   std::vector<HoldingNode> holding_;
   std::vector<CandidateNode> candidates_;
   bool record_nodes_ = false;
+  std::vector<Eigen::Vector3d> slip_direction_, trial_direction_; ///< by block; zero where nothing slips
 };
 } // namespace amontons

@@ -22,7 +22,7 @@ constexpr int many_face_changes = 4;
 constexpr double touching = 1e-9;
 constexpr int max_nodes = 5;
 /// Edges of the target sharper than this stay sharp where normals are smoothed.
-constexpr double sharp_angle = 0.25 * 3.14159265358979323846;
+constexpr double sharp_angle = 3.14159265358979323846 / 6;
 
 } // namespace
 

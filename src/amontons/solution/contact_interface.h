@@ -98,9 +98,9 @@ private:
   Index shape_node_ = -1;
   std::vector<double> areas_, augmentation_;
   std::unique_ptr<Detector> detector_;
-  Pairing pairing_, start_pairing_; ///< now, and at the increment's beginning
+  Pairing pairing_, start_pairing_;    ///< now, and at the increment's beginning
   std::vector<double> target_normals_; ///< at the corners of the target's faces at the increment's beginning, or empty
-  std::vector<int> n_face_changes_; ///< within the increment
+  std::vector<int> n_face_changes_;    ///< within the increment
   std::vector<Eigen::Vector3d> slip_origin_;
   std::vector<char> has_origin_;
   std::vector<double> start_gap_;

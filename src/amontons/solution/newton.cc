@@ -294,6 +294,7 @@ NewtonOutcome Newton::solve(State &state, double time)
     n_flips_.assign(at.status.size(), 0);
     std::map<std::uint64_t, int> seen;
     int n_cycles = 0;
+    contacts_.forget_slip();
     bool damp = false;
     for (int iteration = 1;; ++iteration)
     {
@@ -304,6 +305,7 @@ NewtonOutcome Newton::solve(State &state, double time)
       }
       if (iteration > options.max_iterations)
         throw NumericalFailure("no convergence in " + std::to_string(options.max_iterations) + " iterations");
+      contacts_.remember_slip();
       restrain(at, now, start, time, iteration == 1);
       const std::vector<double> step = solve_linear(at, now);
       outcome.n_iterations = iteration;
