@@ -1,48 +1,15 @@
 #include "amontons/solution/contact_assembly.h"
 
-#include <Eigen/Eigenvalues>
+#include "amontons/solution/dependent_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace amontons
 {
 namespace
 {
-/// Share of a row's length that must be left, after what other rows hold is taken away, for the row to count.
-constexpr double independent_share = 1e-6;
-
-using SparseRow = std::map<Index, double>;
-
-double dot(const SparseRow &a, const SparseRow &b)
-{
-  double sum = 0;
-  for (const auto &[i, v] : a)
-    if (const auto it = b.find(i); it != b.end())
-      sum += v * it->second;
-  return sum;
-}
-
-void subtract(SparseRow &a, const SparseRow &b, double factor)
-{
-  for (const auto &[i, v] : b)
-    a[i] -= factor * v;
-}
-
-void orthogonalize(SparseRow &row, const std::vector<SparseRow> &kept)
-{
-  for (const SparseRow &other : kept)
-    subtract(row, other, dot(row, other));
-}
-
-void keep(SparseRow row, std::vector<SparseRow> &kept)
-{
-  const double length = std::sqrt(dot(row, row));
-  for (auto &[i, v] : row)
-    v /= length;
-  kept.push_back(std::move(row));
-}
-
 Multipliers multipliers_of(const State &state, const ContactInterface &contact, Index i, int dim)
 {
   const double *lambda = state.multipliers.data() + contact.multiplier(i);
@@ -177,84 +144,16 @@ ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t 
   return work;
 }
 
-void ContactAssembly::drop_dependent_rows(std::span<Work *const> works, const State &state)
+void ContactAssembly::drop_dependent_rows(std::span<Work *const> works, const State &state) const
 {
-  const int dim = model_.dim();
-  std::vector<SparseRow> kept;
-  const auto on_unknowns = [&](const Work &work, const auto &row)
-  {
-    SparseRow out;
-    const ConstraintPattern &pattern = form_.constraints()[work.block];
-    for (int k = 0; k < pattern.n_nodal; ++k)
-      for (const Term &term : model_.layout().terms(pattern.nodal[k]))
-        out[term.unknown] += term.coefficient * row[k];
-    return out;
-  };
+  DependentRows rows(model_.layout());
   for (Work *work : works)
-  {
-    ContactElement &e = work->element;
-    if (e.status == ContactStatus::open)
-      continue;
-    const ContactInterface &contact = model_.contacts()[work->contact];
-    const double r = contact.augmentation(work->node);
-    const Multipliers lambda = multipliers_of(state, contact, work->node, dim);
-    SparseRow normal = on_unknowns(*work, e.constraint_by_position.row(0));
-    const double full = e.constraint_by_position.row(0).norm();
-    orthogonalize(normal, kept);
-    if (std::sqrt(dot(normal, normal)) > independent_share * full)
-      keep(std::move(normal), kept);
-    else
+    if (work->element.status != ContactStatus::open)
     {
-      e.constraint_by_position.row(0).setZero();
-      e.constraint_by_multiplier.row(0).setZero();
-      e.constraint_by_multiplier(0, 0) = -1 / r;
-      e.constraint[0] = -lambda.normal / r;
+      const ContactInterface &contact = model_.contacts()[work->contact];
+      rows.filter(work->element, form_.constraints()[work->block],
+                  multipliers_of(state, contact, work->node, model_.dim()), contact.augmentation(work->node));
     }
-    if (e.status != ContactStatus::stick)
-      continue;
-    const int n = dim - 1;
-    std::vector<SparseRow> rows;
-    Eigen::MatrixXd gram(n, n);
-    for (int a = 0; a < n; ++a)
-    {
-      rows.push_back(on_unknowns(*work, e.constraint_by_position.row(1 + a)));
-      orthogonalize(rows.back(), kept);
-    }
-    for (int a = 0; a < n; ++a)
-      for (int b = 0; b < n; ++b)
-        gram(a, b) = dot(rows[a], rows[b]);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-    if (eigen.eigenvalues()[0] > independent_share * independent_share * full * full)
-    {
-      for (auto &row : rows)
-      {
-        orthogonalize(row, kept);
-        keep(row, kept);
-      }
-      continue;
-    }
-    // The tangent plane's directions one by one: what has no unknown behind it carries no multiplier.
-    const Eigen::MatrixXd u = eigen.eigenvectors();
-    const Eigen::MatrixXd by_position = u.transpose() * e.constraint_by_position.bottomRows(n);
-    const Eigen::VectorXd constraint = u.transpose() * e.constraint.tail(n);
-    const Eigen::Map<const Eigen::VectorXd> tangential(lambda.tangential.data(), n);
-    for (int k = 0; k < n; ++k)
-    {
-      e.constraint_by_multiplier.row(1 + k).setZero();
-      if (eigen.eigenvalues()[k] > independent_share * independent_share * full * full)
-      {
-        e.constraint_by_position.row(1 + k) = by_position.row(k);
-        e.constraint[1 + k] = constraint[k];
-        SparseRow row = on_unknowns(*work, by_position.row(k));
-        orthogonalize(row, kept);
-        keep(std::move(row), kept);
-        continue;
-      }
-      e.constraint_by_position.row(1 + k).setZero();
-      e.constraint_by_multiplier.block(1 + k, 1, 1, n) = -u.col(k).transpose() / r;
-      e.constraint[1 + k] = -u.col(k).dot(tangential) / r;
-    }
-  }
 }
 
 void ContactAssembly::write(std::size_t block, const ContactElement &e)

@@ -23,10 +23,7 @@ struct ContactContribution
 
 /// Writes the contacts' elements into the coupled form and the residual.
 ///
-/// Nodes that a support holds, or that are impactors in several contacts, can make constraint rows depend on each other
-/// or on nothing. The rule: at each such node rows are taken in the order of the deck's contacts, normal before
-/// tangential; a row (in 3D, a direction of the tangent plane) whose part on the unknowns depends on the rows already
-/// taken is dropped and its multiplier is zero. So pressures are unique.
+/// At nodes that a support holds, or that are impactors in several contacts, see DependentRows.
 class ContactAssembly
 {
 public:
@@ -68,7 +65,7 @@ private:
                                             const Multipliers &lambda, double mu, double r);
   [[nodiscard]] Work make_element(int c, Index i, std::size_t block, const State &state, std::span<const double> start,
                                   std::span<const double> pending, bool forced, bool first);
-  void drop_dependent_rows(std::span<Work *const> works, const State &state);
+  void drop_dependent_rows(std::span<Work *const> works, const State &state) const;
   void add(const Work &work, std::span<const double> pending, ContactContribution &out);
   void write(std::size_t block, const ContactElement &element);
 

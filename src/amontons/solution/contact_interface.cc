@@ -58,7 +58,6 @@ ContactInterface::ContactInterface(const Mesh &mesh, Kinematics kinematics, Stra
   gap_offset_.assign(n, 0);
   total_slip_.assign(n * (dim_ - 1), 0);
   status_.assign(n, ContactStatus::open);
-  old_frame_.resize(n);
 }
 
 DetectionReport ContactInterface::detection_report() const
@@ -150,7 +149,7 @@ bool ContactInterface::keeps_face(Index i, const Pair &found, std::span<const do
 
 bool ContactInterface::detect(std::span<const double> displacement, double reach, bool keep)
 {
-  changed_.clear();
+  old_frames_.clear();
   if (analytic_)
     return false;
   std::vector<double> impactor_x(impactor_->reference), target_x(target_->reference);
@@ -175,8 +174,8 @@ bool ContactInterface::detect(std::span<const double> displacement, double reach
     ++n_face_changes_[i];
     if (pairing_[i].face >= 0 && found[i].face >= 0 && dim_ == 3)
     {
-      old_frame_[i] = linearise_with_origin(i, displacement, displacement).tangent;
-      changed_.push_back(i);
+      const ContactLinearisation old = linearise_with_origin(i, displacement, displacement);
+      old_frames_.push_back({i, old.normal, old.tangent});
     }
     pairing_[i] = found[i];
   }
@@ -185,20 +184,14 @@ bool ContactInterface::detect(std::span<const double> displacement, double reach
 
 void ContactInterface::turn_multipliers(std::span<const double> displacement, std::span<double> multipliers)
 {
-  for (const Index i : changed_)
+  for (const OldFrame &old : old_frames_)
   {
-    double *lambda = multipliers.data() + multiplier(i) + 1;
-    const Eigen::Vector3d force = lambda[0] * old_frame_[i][0] + lambda[1] * old_frame_[i][1];
-    const double size = force.norm();
-    if (size == 0)
-      continue;
-    const ContactLinearisation now = linearise_with_origin(i, displacement, displacement);
-    const Eigen::Vector3d in_plane = force - force.dot(now.normal) * now.normal;
-    const double factor = in_plane.norm() > 0 ? size / in_plane.norm() : 0;
-    lambda[0] = factor * in_plane.dot(now.tangent[0]);
-    lambda[1] = factor * in_plane.dot(now.tangent[1]);
+    double *lambda = multipliers.data() + multiplier(old.node) + 1;
+    const ContactLinearisation now = linearise_with_origin(old.node, displacement, displacement);
+    const auto turned = carry_tangential({lambda[0], lambda[1]}, old.normal, old.tangent, now);
+    std::copy_n(turned.begin(), 2, lambda);
   }
-  changed_.clear();
+  old_frames_.clear();
 }
 
 Eigen::Vector3d ContactInterface::relative(Index i, std::span<const double> displacement) const
@@ -318,11 +311,9 @@ void ContactInterface::find_closing_origin(Index i, const ContactLinearisation &
                                            std::span<const double> displacement, std::span<const double> start)
 {
   has_origin_[i] = 1;
-  const double drop = start_gap_[i] - now.gap;
-  const double share = drop > 0 ? std::clamp(start_gap_[i] / drop, 0.0, 1.0) : 0;
   if (small_)
   {
-    slip_origin_[i] += share * (relative(i, displacement) - slip_origin_[i]);
+    slip_origin_[i] += closing_fraction(start_gap_[i], now.gap) * (relative(i, displacement) - slip_origin_[i]);
     return;
   }
   std::array<Index, max_nodes> ids;
@@ -339,8 +330,8 @@ void ContactInterface::find_closing_origin(Index i, const ContactLinearisation &
                                             {x_start.data() + d, (n - 1) * d}, pairing_[i].xi);
     return;
   }
-  for (std::size_t c = 0; c < d; ++c)
-    slip_origin_[i][c] = x_start[c] + share * ((x[c] - x[d + c]) - (x_start[c] - x_start[d + c]));
+  slip_origin_[i] = closing_origin_shape(dim_, axisymmetric_, *analytic_, {x.data(), d}, {x.data() + d, d},
+                                         {x_start.data(), d}, {x_start.data() + d, d});
 }
 
 ContactLinearisation ContactInterface::linearise(Index i, std::span<const double> displacement,
@@ -358,58 +349,5 @@ void ContactInterface::adjust_initial_overlap(std::span<const double> displaceme
   for (Index i = 0; i < n_nodes(); ++i)
     if (paired(i))
       gap_offset_[i] = std::min(0.0, linearise_with_origin(i, displacement, displacement).gap);
-}
-
-ContactResult ContactInterface::result(std::span<const double> displacement, std::span<const double> start,
-                                       std::span<const double> multipliers)
-{
-  ContactResult out;
-  const int n_tangents = dim_ - 1;
-  const auto n = static_cast<std::size_t>(n_nodes());
-  out.name = options_.name;
-  out.impactor = impactor_.get();
-  out.dim = dim_;
-  out.gap.assign(n, std::numeric_limits<double>::infinity());
-  out.pressure.assign(n, 0);
-  out.traction.assign(n * n_tangents, 0);
-  out.slip.assign(n * n_tangents, 0);
-  out.status.assign(n, ContactStatus::open);
-  out.force.assign(n * dim_, 0);
-  out.area = areas_;
-  out.min_gap = std::numeric_limits<double>::infinity();
-  for (Index i = 0; i < n_nodes(); ++i)
-  {
-    if (!paired(i))
-      continue;
-    const ContactLinearisation now = linearise(i, displacement, start);
-    const double *lambda = multipliers.data() + multiplier(i);
-    Multipliers m{lambda[0], {lambda[1], n_tangents > 1 ? lambda[2] : 0}};
-    out.gap[i] = now.gap;
-    out.min_gap = std::min(out.min_gap, now.gap);
-    out.status[i] = contact_status(now, m, options_.friction_coefficient, augmentation_[i]);
-    if (out.status[i] == ContactStatus::open)
-      continue;
-    ++out.n_active;
-    ++(out.status[i] == ContactStatus::stick ? out.n_stick : out.n_slip);
-    out.pressure[i] = -m.normal / areas_[i];
-    out.max_pressure = std::max(out.max_pressure, out.pressure[i]);
-    out.contact_area += areas_[i];
-    const ContactVector normal_force = -m.normal * now.gap_direction;
-    for (int c = 0; c < dim_; ++c)
-      out.normal_force[c] += normal_force[c];
-    ContactVector tangential_force = ContactVector::Zero(now.n_dofs());
-    for (int a = 0; a < n_tangents; ++a)
-    {
-      tangential_force -= m.tangential[a] * now.slip_direction[a];
-      out.traction[i * n_tangents + a] = -m.tangential[a] / areas_[i];
-      out.slip[i * n_tangents + a] = total_slip_[i * n_tangents + a] + now.slip[a];
-    }
-    for (int c = 0; c < dim_; ++c)
-    {
-      out.tangential_force[c] += tangential_force[c];
-      out.force[i * dim_ + c] = normal_force[c] + tangential_force[c];
-    }
-  }
-  return out;
 }
 } // namespace amontons

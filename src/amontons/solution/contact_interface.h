@@ -77,6 +77,13 @@ public:
   void set_first_multiplier(Index first) { first_multiplier_ = first; }
 
 private:
+  /// Frame in which a node's tangential multipliers are still to be read.
+  struct OldFrame
+  {
+    Index node;
+    Eigen::Vector3d normal;
+    std::array<Eigen::Vector3d, max_tangents> tangent;
+  };
   [[nodiscard]] ContactLinearisation linearise_with_origin(Index i, std::span<const double> displacement,
                                                            std::span<const double> start) const;
   void find_closing_origin(Index i, const ContactLinearisation &now, std::span<const double> displacement,
@@ -104,11 +111,10 @@ private:
   std::vector<Eigen::Vector3d> slip_origin_;
   std::vector<char> has_origin_;
   std::vector<double> start_gap_;
-  std::vector<double> gap_offset_;                                   ///< initial overlap that is taken as zero
-  std::vector<ContactStatus> status_;                                ///< at the increment's beginning
-  std::vector<double> total_slip_;                                   ///< [n * (dim-1)]
-  std::vector<std::array<Eigen::Vector3d, max_tangents>> old_frame_; ///< of nodes whose face changed
-  std::vector<Index> changed_;
+  std::vector<double> gap_offset_;    ///< initial overlap that is taken as zero
+  std::vector<ContactStatus> status_; ///< at the increment's beginning
+  std::vector<double> total_slip_;    ///< [n * (dim-1)]
+  std::vector<OldFrame> old_frames_;  ///< of nodes whose face the last detect() changed, in 3D
   Index first_multiplier_ = 0;
 };
 } // namespace amontons

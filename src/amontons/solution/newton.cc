@@ -62,6 +62,12 @@ struct Newton::Evaluation
   double pending_motion = 0;  ///< length
 };
 
+struct Newton::Iterate
+{
+  State state;
+  Evaluation at;
+};
+
 Newton::Newton(Model &model, Counters &counters, Timers &timers, std::function<void(const IterationReport &)> report)
   : model_(model)
   , counters_(counters)
@@ -235,7 +241,7 @@ void Newton::restrain(Evaluation &at, const State &state, const State &start, do
     at = evaluate(state, start, time, decision.closed, first);
 }
 
-std::vector<double> Newton::solve_linear(const Evaluation &at, const State &)
+std::vector<double> Newton::solve_linear(const Evaluation &at)
 {
   std::vector<double> step(at.rhs.size());
   {
@@ -278,86 +284,97 @@ std::string Newton::remark(const Evaluation &now, std::span<const ContactStatus>
   return "";
 }
 
+Newton::Iterate Newton::step_from(const Iterate &from, const State &start, double time,
+                                  std::span<const double> increment, bool damp, double &share)
+{
+  Iterate next;
+  share = damp ? 0.5 : 1;
+  for (int k = 0; k <= max_halvings; ++k, share *= 0.5)
+  {
+    next.state = model_.prescribe(model_.advance(from.state, increment, share), time, share);
+    detect(next.state);
+    next.at = evaluate(next.state, start, time, {}, false);
+    const bool wild = !model_.small_strain() && from.at.pending_motion == 0 && k < max_damping &&
+                      next.at.norm > allowed_growth * from.at.norm;
+    if (next.at.valid && !wild)
+      return next;
+  }
+  throw NumericalFailure("a cell turns inside out");
+}
+
+IterationReport Newton::compare(const Iterate &before, const Iterate &after)
+{
+  IterationReport report;
+  report.residual = after.at.scale > 0 ? after.at.norm / after.at.scale : after.at.norm;
+  double change = 0;
+  for (std::size_t i = 0; i < after.state.displacement.size(); ++i)
+    change = std::max(change, std::abs(after.state.displacement[i] - before.state.displacement[i]));
+  const double motion = largest(after.state.displacement);
+  report.correction = motion > 0 ? change / motion : 0;
+  for (std::size_t k = 0; k < after.at.status.size(); ++k)
+  {
+    report.n_status_changes += after.at.status[k] != before.at.status[k];
+    report.n_stick += after.at.status[k] == ContactStatus::stick;
+    report.n_slip += after.at.status[k] == ContactStatus::slip;
+  }
+  report.n_active = report.n_stick + report.n_slip;
+  report.remark = remark(after.at, before.at.status);
+  return report;
+}
+
+void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome)
+{
+  const SolverOptions &options = model_.options().solver;
+  std::map<std::uint64_t, int> seen;
+  int n_cycles = 0;
+  bool damp = false;
+  for (int iteration = 1; now.at.norm > options.tolerance * now.at.scale || now.at.pending_motion > 0; ++iteration)
+  {
+    if (iteration > options.max_iterations)
+      throw NumericalFailure("no convergence in " + std::to_string(options.max_iterations) + " iterations");
+    contacts_.remember_slip();
+    restrain(now.at, now.state, start, time, iteration == 1);
+    const std::vector<double> increment = solve_linear(now.at);
+    outcome.n_iterations = iteration;
+    ++outcome.n_linear_iterations;
+    ++counters_.n_newton_iterations;
+
+    double share = 1;
+    Iterate next = step_from(now, start, time, increment, damp, share);
+    IterationReport report = compare(now, next);
+    report.iteration = iteration;
+    report.step_length = share;
+    // A set of statuses that comes back after others: the iterations turn in a circle.
+    const auto [place, is_new] = seen.try_emplace(signature(next.at.status), iteration);
+    damp = !is_new && report.n_status_changes > 0 && place->second < iteration - 1;
+    place->second = iteration;
+    n_cycles += damp;
+    report_(report);
+    now = std::move(next);
+    if (n_cycles > max_cycles)
+      throw NumericalFailure("statuses turn in a circle" + (report.remark.empty() ? "" : ": " + report.remark));
+  }
+}
+
 NewtonOutcome Newton::solve(State &state, double time)
 {
   NewtonOutcome outcome;
   const State start = state;
-  State now = state;
-  const SolverOptions &options = model_.options().solver;
+  Iterate now;
+  now.state = state;
   try
   {
     form_.set_held_modes({});
-    detect(now);
-    Evaluation at = evaluate(now, start, time, {}, true);
-    if (!at.valid)
-      throw NumericalFailure("a cell is inside out at the beginning of the increment");
-    n_flips_.assign(at.status.size(), 0);
-    std::map<std::uint64_t, int> seen;
-    int n_cycles = 0;
     contacts_.forget_slip();
-    bool damp = false;
-    for (int iteration = 1;; ++iteration)
-    {
-      if (at.norm <= options.tolerance * at.scale && at.pending_motion == 0)
-      {
-        outcome.converged = true;
-        break;
-      }
-      if (iteration > options.max_iterations)
-        throw NumericalFailure("no convergence in " + std::to_string(options.max_iterations) + " iterations");
-      contacts_.remember_slip();
-      restrain(at, now, start, time, iteration == 1);
-      const std::vector<double> step = solve_linear(at, now);
-      outcome.n_iterations = iteration;
-      ++outcome.n_linear_iterations;
-      ++counters_.n_newton_iterations;
-
-      double share = damp ? 0.5 : 1;
-      State next;
-      Evaluation after;
-      for (int k = 0; k <= max_halvings; ++k, share *= 0.5)
-      {
-        next = model_.prescribe(model_.advance(now, step, share), time, share);
-        detect(next);
-        after = evaluate(next, start, time, {}, false);
-        const bool wild = !model_.small_strain() && at.pending_motion == 0 && k < max_damping &&
-                          after.norm > allowed_growth * at.norm;
-        if (after.valid && !wild)
-          break;
-      }
-      if (!after.valid)
-        throw NumericalFailure("a cell turns inside out");
-
-      IterationReport report;
-      report.iteration = iteration;
-      report.step_length = share;
-      report.residual = after.scale > 0 ? after.norm / after.scale : after.norm;
-      std::vector<double> change(next.displacement);
-      for (std::size_t i = 0; i < change.size(); ++i)
-        change[i] -= now.displacement[i];
-      const double motion = largest(next.displacement);
-      report.correction = motion > 0 ? largest(change) / motion : 0;
-      for (std::size_t k = 0; k < after.status.size(); ++k)
-      {
-        report.n_status_changes += after.status[k] != at.status[k];
-        report.n_stick += after.status[k] == ContactStatus::stick;
-        report.n_slip += after.status[k] == ContactStatus::slip;
-      }
-      report.n_active = report.n_stick + report.n_slip;
-      report.remark = remark(after, at.status);
-      // A set of statuses that comes back after others: the iterations turn in a circle.
-      const auto [place, is_new] = seen.try_emplace(signature(after.status), iteration);
-      damp = !is_new && report.n_status_changes > 0 && place->second < iteration - 1;
-      place->second = iteration;
-      n_cycles += damp;
-      report_(report);
-      now = std::move(next);
-      at = std::move(after);
-      if (n_cycles > max_cycles)
-        throw NumericalFailure("statuses turn in a circle" + (report.remark.empty() ? "" : ": " + report.remark));
-    }
-    residual_ = at.residual;
-    state = std::move(now);
+    detect(now.state);
+    now.at = evaluate(now.state, start, time, {}, true);
+    if (!now.at.valid)
+      throw NumericalFailure("a cell is inside out at the beginning of the increment");
+    n_flips_.assign(now.at.status.size(), 0);
+    iterate(now, start, time, outcome);
+    outcome.converged = true;
+    residual_ = now.at.residual;
+    state = std::move(now.state);
   }
   catch (const NumericalFailure &failure)
   {

@@ -42,12 +42,18 @@ public:
 
 private:
   struct Evaluation;
+  struct Iterate;
   [[nodiscard]] Evaluation evaluate(const State &state, const State &start, double time,
                                     std::span<const std::pair<int, Index>> forced, bool first);
   void compute_residual(Evaluation &out, const State &state, double time, const ContactContribution &contact) const;
   bool detect(State &state);
   void prepare_matrix(const State &state, double time);
-  [[nodiscard]] std::vector<double> solve_linear(const Evaluation &at, const State &state);
+  [[nodiscard]] std::vector<double> solve_linear(const Evaluation &at);
+  /// Newton's iterations from `now` to the solution, which replaces it. @throws NumericalFailure with the cause
+  void iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome);
+  [[nodiscard]] Iterate step_from(const Iterate &from, const State &start, double time,
+                                  std::span<const double> increment, bool damp, double &share);
+  [[nodiscard]] IterationReport compare(const Iterate &before, const Iterate &after);
   void restrain(Evaluation &at, const State &state, const State &start, double time, bool first);
   void update_rigid_blocks(const State &state, std::span<const double> contact_force);
   [[nodiscard]] std::string remark(const Evaluation &now, std::span<const ContactStatus> before);

@@ -1,0 +1,75 @@
+#include "amontons/solution/contact_interface.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace amontons
+{
+namespace
+{
+ContactResult empty_result(const std::string &name, const Surface &impactor, std::vector<double> areas)
+{
+  const auto n = static_cast<std::size_t>(impactor.n_nodes());
+  const auto dim = static_cast<std::size_t>(impactor.dim);
+  ContactResult out;
+  out.name = name;
+  out.impactor = &impactor;
+  out.dim = impactor.dim;
+  out.gap.assign(n, std::numeric_limits<double>::infinity());
+  out.pressure.assign(n, 0);
+  out.traction.assign(n * (dim - 1), 0);
+  out.slip.assign(n * (dim - 1), 0);
+  out.status.assign(n, ContactStatus::open);
+  out.force.assign(n * dim, 0);
+  out.area = std::move(areas);
+  out.min_gap = std::numeric_limits<double>::infinity();
+  return out;
+}
+
+/// Pressure, traction and force of a closed node, and its share in the sums.
+void add_closed_node(ContactResult &out, Index i, const ContactLinearisation &now, const Multipliers &lambda)
+{
+  ++out.n_active;
+  ++(out.status[i] == ContactStatus::stick ? out.n_stick : out.n_slip);
+  out.pressure[i] = -lambda.normal / out.area[i];
+  out.max_pressure = std::max(out.max_pressure, out.pressure[i]);
+  out.contact_area += out.area[i];
+  for (int a = 0; a < now.n_tangents(); ++a)
+    out.traction[i * now.n_tangents() + a] = -lambda.tangential[a] / out.area[i];
+  for (int c = 0; c < out.dim; ++c)
+  {
+    const double normal = -lambda.normal * now.gap_direction[c];
+    double tangential = 0;
+    for (int a = 0; a < now.n_tangents(); ++a)
+      tangential -= lambda.tangential[a] * now.slip_direction[a][c];
+    out.normal_force[c] += normal;
+    out.tangential_force[c] += tangential;
+    out.force[i * out.dim + c] = normal + tangential;
+  }
+}
+} // namespace
+
+ContactResult ContactInterface::result(std::span<const double> displacement, std::span<const double> start,
+                                       std::span<const double> multipliers)
+{
+  ContactResult out = empty_result(options_.name, *impactor_, areas_);
+  const int n_tangents = dim_ - 1;
+  for (Index i = 0; i < n_nodes(); ++i)
+  {
+    if (!paired(i))
+      continue;
+    const ContactLinearisation now = linearise(i, displacement, start);
+    const double *values = multipliers.data() + multiplier(i);
+    const Multipliers lambda{values[0], {values[1], n_tangents > 1 ? values[2] : 0}};
+    out.gap[i] = now.gap;
+    out.min_gap = std::min(out.min_gap, now.gap);
+    out.status[i] = contact_status(now, lambda, options_.friction_coefficient, augmentation_[i]);
+    if (out.status[i] == ContactStatus::open)
+      continue;
+    add_closed_node(out, i, now, lambda);
+    for (int a = 0; a < n_tangents; ++a)
+      out.slip[i * n_tangents + a] = total_slip_[i * n_tangents + a] + now.slip[a];
+  }
+  return out;
+}
+} // namespace amontons
