@@ -26,7 +26,7 @@ struct ContactOptions
   std::string target;              ///< physical group of faces, or the name of an analytic rigid body
   double friction_coefficient = 0; ///< Coulomb's mu, >= 0
   InitialOverlap initial_overlap = InitialOverlap::resolve;
-  TargetNormals normals = TargetNormals::smoothed;
+  TargetNormals normals = TargetNormals::faceted;
   double augmentation = 1; ///< factor on the automatic r, > 0; the converged result does not depend on it
   SourceLocation where;
 };

@@ -53,7 +53,7 @@ Section<ContactOptions> contact_keys()
               "nodes inside the target before anything moves; resolve: a press-fit, pushed out in the first increment; "
               "adjust: the gap is measured from there and no stress comes of it");
   keys.choice("normals", &ContactOptions::normals,
-              {{"smoothed", TargetNormals::smoothed}, {"faceted", TargetNormals::faceted}}, optional,
+              {{"faceted", TargetNormals::faceted}, {"smoothed", TargetNormals::smoothed}}, optional,
               "along which normals contact forces act on a meshed target in finite strain; smoothed: averaged at the "
               "target's nodes and interpolated, so that they do not jump where a node slides from face to face (edges "
               "sharper than 30 degrees stay sharp); faceted: of each face");
