@@ -29,7 +29,10 @@ Metric<Scalar, n_xi> inverse(const Metric<Scalar, n_xi> &a)
 template<int dim, int n_nodes>
 using LocalNormals = std::array<Point<double, dim>, n_nodes>;
 
-inline double value_of(double x) { return x; }
+inline double value_of(double x)
+{
+  return x;
+}
 template<class Scalar, int dim, int n_nodes>
 Frame<Scalar, dim> central_frame(const FaceNodes<Scalar, dim, n_nodes> &face)
 {

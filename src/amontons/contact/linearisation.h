@@ -27,12 +27,12 @@ struct ContactLinearisation
   std::array<double, max_tangents> slip{0, 0}; ///< g_t over the increment, along e_1, e_2, length
   Eigen::Vector3d normal{0, 0, 0};
   std::array<Eigen::Vector3d, max_tangents> tangent;
-  std::array<double, 2> xi{0, 0};                        ///< local coordinates of the projection, extended
-  ContactVector gap_gradient;                            ///< grad g_n
+  std::array<double, 2> xi{0, 0}; ///< local coordinates of the projection, extended
+  ContactVector gap_gradient;     ///< grad g_n
   /// Virtual gap: what a unit normal force does on the nodes. grad g_n on the faces as they are; with smoothed normals
   /// along those (then the tangent has no symmetry to lose: docs/decisions).
   ContactVector gap_direction;
-  ContactMatrix gap_direction_gradient; ///< (i, j) = d gap_direction(i) / d x_j; zero in small strain
+  ContactMatrix gap_direction_gradient;                  ///< (i, j) = d gap_direction(i) / d x_j; zero in small strain
   std::array<ContactVector, max_tangents> slip_gradient; ///< grad g_t
   /// Virtual slip: what a unit tangential force along e_a does on the nodes. Equal to grad g_t where the slip over
   /// the increment is zero (docs/decisions); in small strain always.
