@@ -158,10 +158,26 @@ Record Problem::solve() const
   return record;
 }
 
+namespace
+{
+std::string trace(const Attempt &attempt)
+{
+  std::ostringstream out;
+  out << "\nattempt at t = " << attempt.time << ":";
+  for (const IterationReport &i : attempt.iterations)
+    out << "\n  " << i.iteration << ": residual " << i.residual << ", correction " << i.correction << ", step "
+        << i.step_length << ", " << i.n_status_changes << " changes, " << i.n_stick << " stick, " << i.n_slip
+        << " slip " << i.remark;
+  out << "\n  " << attempt.cause;
+  return out.str();
+}
+} // namespace
+
 Record Problem::converge() const
 {
   Record record = solve();
-  EXPECT_TRUE(record.result.converged) << record.result.failure;
+  EXPECT_TRUE(record.result.converged) << record.result.failure << trace(record.attempts.front())
+                                       << trace(record.attempts.back());
   return record;
 }
 
