@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(RingsInFiniteStrain, Forces,
                          testing::Combine(testing::Values(Kinematics::axisymmetric), testing::Values(Strain::finite),
                                           testing::Values(Target::rigid, Target::analytic)));
 // Rows of the node on the axis depend on each other all but exactly, and the matrix is singular.
-INSTANTIATE_TEST_SUITE_P(DISABLED_RingsOnADeformableBase, Forces,
+INSTANTIATE_TEST_SUITE_P(RingsOnADeformableBase, Forces,
                          testing::Combine(testing::Values(Kinematics::axisymmetric), testing::Values(Strain::finite),
                                           testing::Values(Target::deformable)));
 } // namespace

@@ -90,7 +90,7 @@ TEST(Increments, FixedOnesAreNeverCut)
 }
 
 /// Bodies that travel for some increments before they touch bear no force yet, and none to measure a residual by.
-TEST(Increments, DISABLED_TravelBeforeTouchingConverges)
+TEST(Increments, TravelBeforeTouchingConverges)
 {
   Blocks blocks(2);
   blocks.add("block", {-0.5, 0.3, 0}, {1, 0.5, 0}, {4, 2, 0});

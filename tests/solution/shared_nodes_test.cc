@@ -50,7 +50,7 @@ TEST(SharedNodes, CornerInAGrooveOfTwoContacts)
     EXPECT_NEAR(p, left, 1e-10);
 }
 
-TEST(SharedNodes, DISABLED_CornerInAGrooveWithFrictionIsInEquilibrium)
+TEST(SharedNodes, CornerInAGrooveWithFrictionIsInEquilibrium)
 {
   for (const Strain strain : {Strain::small, Strain::finite})
   {

@@ -147,13 +147,18 @@ ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t 
 void ContactAssembly::drop_dependent_rows(std::span<Work *const> works, const State &state) const
 {
   DependentRows rows(model_.layout());
+  const auto filter = [&](Work &work, auto which)
+  {
+    const ContactInterface &contact = model_.contacts()[work.contact];
+    (rows.*which)(work.element, form_.constraints()[work.block],
+                  multipliers_of(state, contact, work.node, model_.dim()), contact.augmentation(work.node));
+  };
   for (Work *work : works)
     if (work->element.status != ContactStatus::open)
-    {
-      const ContactInterface &contact = model_.contacts()[work->contact];
-      rows.filter(work->element, form_.constraints()[work->block],
-                  multipliers_of(state, contact, work->node, model_.dim()), contact.augmentation(work->node));
-    }
+      filter(*work, &DependentRows::filter_normal);
+  for (Work *work : works)
+    if (work->element.status == ContactStatus::stick)
+      filter(*work, &DependentRows::filter_sticking);
 }
 
 void ContactAssembly::write(std::size_t block, const ContactElement &e)

@@ -32,6 +32,8 @@ public:
   [[nodiscard]] bool paired(Index i) const { return analytic_ || pairing_[i].face >= 0; }
   [[nodiscard]] std::span<const Pair> pairing() const { return pairing_; }
   [[nodiscard]] DetectionReport detection_report() const;
+  /// How often node i went to another face within the increment.
+  [[nodiscard]] int n_face_changes(Index i) const { return n_face_changes_[i]; }
 
   /// r from the stiffness of the bodies: mean of the diagonal at the impactor node, or on the target where the impactor
   /// is rigid. @param diagonal [n_nodal], zero on rigid nodes

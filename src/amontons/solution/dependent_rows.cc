@@ -9,7 +9,7 @@ namespace amontons
 namespace
 {
 /// Share of a row's length that must be left, after what other rows hold is taken away, for the row to count.
-constexpr double independent_share = 1e-6;
+constexpr double independent_share = 1e-2;
 
 double dot(const std::map<Index, double> &a, const std::map<Index, double> &b)
 {
@@ -54,7 +54,8 @@ bool DependentRows::take(SparseRow row, double full_length)
   return true;
 }
 
-void DependentRows::filter(ContactElement &e, const ConstraintPattern &pattern, const Multipliers &lambda, double r)
+void DependentRows::filter_normal(ContactElement &e, const ConstraintPattern &pattern, const Multipliers &lambda,
+                                  double r)
 {
   if (!take(on_unknowns(pattern, e.constraint_by_position.row(0)), e.constraint_by_position.row(0).norm()))
   {
@@ -63,8 +64,6 @@ void DependentRows::filter(ContactElement &e, const ConstraintPattern &pattern, 
     e.constraint_by_multiplier(0, 0) = -1 / r;
     e.constraint[0] = -lambda.normal / r;
   }
-  if (e.status == ContactStatus::stick)
-    filter_sticking(e, pattern, lambda, r);
 }
 
 /// The rows of the tangent plane are turned into principal directions, strongest first: a direction with no unknown of

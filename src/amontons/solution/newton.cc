@@ -16,8 +16,12 @@ constexpr double allowed_growth = 2;
 constexpr int max_damping = 4;
 /// Times a set of statuses may come back before the increment is given up.
 constexpr int max_cycles = 6;
+/// Iterations with half steps after a circle was found.
+constexpr int damped_after_cycle = 3;
 /// A node that changed its status so often within an increment is named.
 constexpr int named_flips = 3;
+/// Of the internal forces, over what the displacement would meet if nodes moved alone.
+constexpr double round_off = 1e-13;
 
 const char *name(ContactStatus status)
 {
@@ -40,12 +44,32 @@ double largest(std::span<const double> v)
   return out;
 }
 
-/// Identifies a set of statuses (FNV-1a).
-std::uint64_t signature(std::span<const ContactStatus> statuses)
+/// Forces that a displacement meets at the nodes' own stiffness: round-off in the internal forces is a part of them.
+double resisted_force(std::span<const SubdomainMatrix> subdomains, std::span<const double> displacement)
+{
+  double sum = 0;
+  for (const SubdomainMatrix &matrix : subdomains)
+    for (Index row = 0; row < matrix.n_rows(); ++row)
+    {
+      const auto begin = matrix.col.begin() + matrix.row_ptr[row], end = matrix.col.begin() + matrix.row_ptr[row + 1];
+      const auto diagonal = std::lower_bound(begin, end, row) - matrix.col.begin();
+      const auto nodal = static_cast<std::size_t>(matrix.nodes[row / matrix.n_components]) * matrix.n_components +
+                         row % matrix.n_components;
+      sum += std::pow(matrix.values[diagonal] * displacement[nodal], 2);
+    }
+  return std::sqrt(sum);
+}
+
+/// Identifies a set of statuses and faces (FNV-1a).
+std::uint64_t signature(std::span<const ContactStatus> statuses, std::span<const ContactInterface> contacts)
 {
   std::uint64_t hash = 14695981039346656037ull;
+  const auto mix = [&](std::int64_t value) { hash = (hash ^ static_cast<std::uint64_t>(value)) * 1099511628211ull; };
   for (const ContactStatus status : statuses)
-    hash = (hash ^ static_cast<std::uint64_t>(status)) * 1099511628211ull;
+    mix(static_cast<std::int64_t>(status));
+  for (const ContactInterface &contact : contacts)
+    for (const Pair &pair : contact.pairing())
+      mix(pair.face);
   return hash;
 }
 } // namespace
@@ -58,8 +82,9 @@ struct Newton::Evaluation
   std::vector<double> residual; ///< internal - external + contact, nodal
   std::vector<double> rhs;      ///< minus the residual, over the unknowns, prescribed motion included
   std::vector<ContactStatus> status;
-  double norm = 0, scale = 0; ///< force
-  double pending_motion = 0;  ///< length
+  std::uint64_t signature = 0; ///< of statuses and faces
+  double norm = 0, scale = 0;  ///< force
+  double pending_motion = 0;   ///< length
 };
 
 struct Newton::Iterate
@@ -155,6 +180,9 @@ void Newton::compute_residual(Evaluation &out, const State &state, double time,
   out.norm = std::sqrt(norm2({forces.data(), static_cast<std::size_t>(layout.n_displacement_unknowns())}) +
                        contact.constraint_norm2);
   out.scale = std::sqrt(std::max({norm2(internal), norm2(external), contact.force_norm2, norm2(rigid)}));
+  // Bodies that travel freely bear no force but round-off.
+  out.scale = std::max(out.scale, round_off / model_.options().solver.tolerance *
+                                      resisted_force(model_.bodies().subdomains(), state.displacement));
   if (!std::isfinite(out.norm))
     out.valid = false;
 
@@ -199,6 +227,7 @@ Newton::Evaluation Newton::evaluate(const State &state, const State &start, doub
       state, start.displacement,
       out.pending_motion > 0 ? std::span<const double>(out.pending) : std::span<const double>{}, forced, first);
   out.status = contact.status;
+  out.signature = signature(out.status, model_.contacts());
   update_rigid_blocks(state, contact.force);
   compute_residual(out, state, time, contact);
   return out;
@@ -269,7 +298,7 @@ std::string Newton::remark(const Evaluation &now, std::span<const ContactStatus>
         worst = k;
     }
   if (worst == now.status.size())
-    return "";
+    return face_remark();
   std::size_t first = 0;
   for (const ContactInterface &contact : model_.contacts())
   {
@@ -282,6 +311,24 @@ std::string Newton::remark(const Evaluation &now, std::span<const ContactStatus>
     first += static_cast<std::size_t>(contact.n_nodes());
   }
   return "";
+}
+
+/// The node that has changed its face most often within the increment, if that is often.
+std::string Newton::face_remark() const
+{
+  int most = named_flips - 1;
+  GlobalIndex node = -1;
+  for (const ContactInterface &contact : model_.contacts())
+    for (Index i = 0; i < contact.n_nodes(); ++i)
+      if (contact.n_face_changes(i) > most)
+      {
+        most = contact.n_face_changes(i);
+        node = contact.impactor().node_ids[i];
+      }
+  if (node < 0)
+    return "";
+  return "node " + std::to_string(model_.mesh().node_tags[static_cast<std::size_t>(node)]) +
+         " goes to another face, change " + std::to_string(most);
 }
 
 Newton::Iterate Newton::step_from(const Iterate &from, const State &start, double time,
@@ -327,7 +374,7 @@ void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcom
   const SolverOptions &options = model_.options().solver;
   std::map<std::uint64_t, int> seen;
   int n_cycles = 0;
-  bool damp = false;
+  int n_damped = 0;
   for (int iteration = 1; now.at.norm > options.tolerance * now.at.scale || now.at.pending_motion > 0; ++iteration)
   {
     if (iteration > options.max_iterations)
@@ -340,19 +387,21 @@ void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcom
     ++counters_.n_newton_iterations;
 
     double share = 1;
-    Iterate next = step_from(now, start, time, increment, damp, share);
+    Iterate next = step_from(now, start, time, increment, n_damped > 0, share);
     IterationReport report = compare(now, next);
     report.iteration = iteration;
     report.step_length = share;
-    // A set of statuses that comes back after others: the iterations turn in a circle.
-    const auto [place, is_new] = seen.try_emplace(signature(next.at.status), iteration);
-    damp = !is_new && report.n_status_changes > 0 && place->second < iteration - 1;
+    // A set of statuses and faces that comes back after others: the iterations turn in a circle.
+    const auto [place, is_new] = seen.try_emplace(next.at.signature, iteration);
+    const bool circle = !is_new && next.at.signature != now.at.signature;
+    n_damped = circle ? damped_after_cycle : std::max(n_damped - 1, 0);
     place->second = iteration;
-    n_cycles += damp;
+    n_cycles += circle;
     report_(report);
     now = std::move(next);
     if (n_cycles > max_cycles)
-      throw NumericalFailure("statuses turn in a circle" + (report.remark.empty() ? "" : ": " + report.remark));
+      throw NumericalFailure("statuses or faces turn in a circle" +
+                             (report.remark.empty() ? "" : ": " + report.remark));
   }
 }
 

@@ -56,6 +56,7 @@ private:
   [[nodiscard]] IterationReport compare(const Iterate &before, const Iterate &after);
   void restrain(Evaluation &at, const State &state, const State &start, double time, bool first);
   void update_rigid_blocks(const State &state, std::span<const double> contact_force);
+  [[nodiscard]] std::string face_remark() const;
   [[nodiscard]] std::string remark(const Evaluation &now, std::span<const ContactStatus> before);
 
   Model &model_;
