@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 namespace amontons
 {
@@ -14,6 +15,8 @@ namespace
 /// Eigenvalues of the restraints' Gram matrix below this share of the largest belong to free motions.
 constexpr double free_share = 1e-11;
 constexpr double load_share = 1e-10;
+/// A gap that closes more slowly, over the motion, does not stop it.
+constexpr double least_approach = 1e-6;
 
 Eigen::MatrixXd null_space(const Eigen::MatrixXd &gram)
 {
@@ -238,23 +241,10 @@ std::string FreeMotions::describe(const Eigen::VectorXd &motion) const
   return std::string(modes_[m].rotation ? "rotation about " : "translation along ") + "xyz"[modes_[m].axis];
 }
 
-FreeMotions::Decision FreeMotions::decide(const State &state, std::span<const HoldingNode> holding,
-                                          std::vector<CandidateNode> candidates, std::span<const double> residual,
-                                          double time, double force_scale) const
+Eigen::VectorXd FreeMotions::loads(const State &state, std::span<const double> residual, double time) const
 {
-  Decision decision;
   const int dim = model_.dim();
   const auto n_modes = static_cast<Eigen::Index>(modes_.size());
-  Eigen::MatrixXd gram = support_gram_;
-  const auto hold = [&](int contact, Index node, const ContactVector &row)
-  {
-    const Eigen::VectorXd r = over_modes(state, contact, node, row);
-    gram += r * r.transpose();
-  };
-  for (const HoldingNode &node : holding)
-    hold(node.contact, node.node, node.row);
-
-  // Load along each mode, rigid bodies' own forces included by the caller's residual.
   Eigen::VectorXd load = Eigen::VectorXd::Zero(n_modes);
   for (Index node = 0; node < static_cast<Index>(part_of_node_.size()); ++node)
     if (part_of_node_[node] >= 0)
@@ -273,46 +263,71 @@ FreeMotions::Decision FreeMotions::decide(const State &state, std::span<const Ho
       const Index unknown = (modes_[m].rotation ? body.rotation : body.translation)[modes_[m].axis].unknown;
       load[m] += rigid_forces[unknown] / (modes_[m].rotation ? size_[modes_[m].component] : 1);
     }
+  return load;
+}
 
+std::optional<std::size_t> FreeMotions::first_to_close(const State &state, std::span<const CandidateNode> candidates,
+                                                       const Eigen::VectorXd &motion) const
+{
+  double soonest = std::numeric_limits<double>::infinity();
+  std::optional<std::size_t> chosen;
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+  {
+    const CandidateNode &c = candidates[k];
+    const double rate = over_modes(state, c.contact, c.node, c.gap_gradient).dot(motion / motion.norm());
+    if (rate >= -least_approach || c.gap / -rate >= soonest)
+      continue;
+    soonest = c.gap / -rate;
+    chosen = k;
+  }
+  return chosen;
+}
+
+FreeMotions::Decision FreeMotions::decide(const State &state, std::span<const HoldingNode> holding,
+                                          std::vector<CandidateNode> candidates, std::span<const double> residual,
+                                          double time, double force_scale) const
+{
+  Decision decision;
+  Eigen::MatrixXd gram = support_gram_;
+  const auto hold = [&](int contact, Index node, const ContactVector &row)
+  {
+    const Eigen::VectorXd r = over_modes(state, contact, node, row);
+    gram += r * r.transpose();
+  };
+  for (const HoldingNode &node : holding)
+    hold(node.contact, node.node, node.row);
+  const Eigen::VectorXd load = loads(state, residual, time);
   while (true)
   {
     const Eigen::MatrixXd free = null_space(gram);
     if (free.cols() == 0)
       return decision;
     const Eigen::VectorXd motion = free * (free.transpose() * load);
-    if (motion.norm() <= load_share * force_scale || force_scale == 0)
+    const bool loaded = motion.norm() > load_share * force_scale && force_scale > 0;
+    const auto chosen = loaded ? first_to_close(state, candidates, motion) : std::nullopt;
+    if (chosen)
     {
-      for (Eigen::Index k = 0; k < free.cols(); ++k)
-        decision.held_modes.push_back(over_unknowns(state, free.col(k)));
-      return decision;
+      hold(candidates[*chosen].contact, candidates[*chosen].node, candidates[*chosen].gap_gradient);
+      decision.closed.emplace_back(candidates[*chosen].contact, candidates[*chosen].node);
+      candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(*chosen));
+      continue;
     }
-    double soonest = std::numeric_limits<double>::infinity();
-    std::size_t chosen = candidates.size();
-    for (std::size_t k = 0; k < candidates.size(); ++k)
-    {
-      const double rate = over_modes(state, candidates[k].contact, candidates[k].node, candidates[k].gap_gradient)
-                              .dot(motion / motion.norm());
-      if (rate >= -1e-6)
-        continue;
-      const double way = candidates[k].gap / -rate;
-      if (way < soonest)
-      {
-        soonest = way;
-        chosen = k;
-      }
-    }
-    if (chosen == candidates.size())
-    {
-      Eigen::Index m = 0;
-      motion.cwiseAbs().maxCoeff(&m);
-      throw NumericalFailure("body '" + model_.options().bodies[body_of_part_[modes_[m].component]].name +
-                             "' moves freely (" + describe(motion) +
-                             "): neither a support nor a contact holds the load of " + std::to_string(motion.norm()));
-    }
-    hold(candidates[chosen].contact, candidates[chosen].node, candidates[chosen].gap_gradient);
-    decision.closed.emplace_back(candidates[chosen].contact, candidates[chosen].node);
-    candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(chosen));
+    if (loaded)
+      throw NumericalFailure(describe_loaded(motion));
+    for (Eigen::Index k = 0; k < free.cols(); ++k)
+      decision.held_modes.push_back(over_unknowns(state, free.col(k)));
+    return decision;
   }
+}
+
+std::string FreeMotions::describe_loaded(const Eigen::VectorXd &motion) const
+{
+  Eigen::Index m = 0;
+  motion.cwiseAbs().maxCoeff(&m);
+  std::ostringstream force;
+  force << motion.norm();
+  return "body '" + model_.options().bodies[body_of_part_[modes_[m].component]].name + "' moves freely (" +
+         describe(motion) + "): neither a support nor a contact holds the load of " + force.str();
 }
 
 std::vector<double> FreeMotions::over_unknowns(const State &state, const Eigen::VectorXd &motion) const

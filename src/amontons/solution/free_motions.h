@@ -72,6 +72,11 @@ private:
   [[nodiscard]] Eigen::VectorXd over_modes(const State &state, int contact, Index node, const ContactVector &row) const;
   void add_supports(Eigen::MatrixXd &gram) const;
   [[nodiscard]] std::vector<double> over_unknowns(const State &state, const Eigen::VectorXd &motion) const;
+  /// Load along each mode, the rigid bodies' own forces included.
+  [[nodiscard]] Eigen::VectorXd loads(const State &state, std::span<const double> residual, double time) const;
+  [[nodiscard]] std::optional<std::size_t> first_to_close(const State &state, std::span<const CandidateNode> candidates,
+                                                          const Eigen::VectorXd &motion) const;
+  [[nodiscard]] std::string describe_loaded(const Eigen::VectorXd &motion) const;
   [[nodiscard]] std::string describe(const Eigen::VectorXd &motion) const;
 
   const Model &model_;
