@@ -1,32 +1,14 @@
 """Whole runs: what is written, and that every number is the same wherever it is written."""
-import base64
 import csv
 import math
-import struct
+import sys
 import unittest
-import xml.etree.ElementTree
-import zlib
+from pathlib import Path
 
 from command import CommandTest
 
-
-def vtu_arrays(path):
-    """Arrays of a .vtu by name, decoded as VTK's file formats describe."""
-    formats = {"Float64": "d", "Int64": "q", "UInt8": "B"}
-    arrays = {}
-    for element in xml.etree.ElementTree.parse(path).iter("DataArray"):
-        code = element.text.strip()
-        n_blocks, = struct.unpack("<Q", base64.b64decode(code[:12])[:8])
-        length = math.ceil(8 * (3 + n_blocks) / 3) * 4
-        sizes = struct.unpack(f"<{3 + n_blocks}Q", base64.b64decode(code[:length]))[3:]
-        packed = base64.b64decode(code[length:])
-        data = b""
-        for size in sizes:
-            data += zlib.decompress(packed[:size])
-            packed = packed[size:]
-        kind = formats[element.get("type")]
-        arrays[element.get("Name")] = struct.unpack(f"<{len(data) // struct.calcsize(kind)}{kind}", data)
-    return arrays
+sys.path.append(str(Path(__file__).parents[2] / "scripts"))
+from vtu import vtu_arrays  # noqa: E402
 
 
 class Run(CommandTest):
