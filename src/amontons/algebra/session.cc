@@ -9,7 +9,7 @@ namespace amontons
 AlgebraSession::AlgebraSession()
 {
   // PETSc would otherwise take its options from the user's home and environment, and catch signals.
-  std::string name = "amontons", skip = "-skip_petscrc", signals = "-no_signal_handler", none;
+  std::string name = "amontons", skip = "-skip_petscrc", signals = "-no_signal_handler";
   char *arguments[] = {name.data(), skip.data(), signals.data(), nullptr};
   char **argv = arguments;
   int argc = 3;
@@ -22,19 +22,5 @@ AlgebraSession::AlgebraSession()
 AlgebraSession::~AlgebraSession()
 {
   PetscFinalize();
-}
-
-int AlgebraSession::n_processes() const
-{
-  int n = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &n);
-  return n;
-}
-
-int AlgebraSession::rank() const
-{
-  int r = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &r);
-  return r;
 }
 } // namespace amontons

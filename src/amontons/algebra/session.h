@@ -11,8 +11,5 @@ public:
   ~AlgebraSession();
   AlgebraSession(const AlgebraSession &) = delete;
   AlgebraSession &operator=(const AlgebraSession &) = delete;
-
-  [[nodiscard]] int n_processes() const;
-  [[nodiscard]] int rank() const;
 };
 } // namespace amontons
