@@ -267,19 +267,6 @@ TEST(CarryTangential, NothingChangesInThePlane)
   EXPECT_EQ(carry_tangential({3, 0}, Vector3d::UnitX(), {Vector3d::UnitY(), Vector3d::Zero()}, to)[0], 3);
 }
 
-TEST(ForceOnImpactor, IsWhatTheElementTakesFromIt)
-{
-  const Case c = make_case("triangle_small", 2, false);
-  const ContactLinearisation lin = c.linearise(c.x);
-  const double r = 2;
-  const Multipliers sigma{-3, {0.4, 0.5}};
-  const Multipliers lambda{sigma.normal - r * lin.gap,
-                           {sigma.tangential[0] - r * lin.slip[0], sigma.tangential[1] - r * lin.slip[1]}};
-  const ContactElement element = contact_element(lin, lambda, 0.5, r, ContactStatus::stick);
-  EXPECT_LT((force_on_impactor(lin, sigma) + element.force.head<3>()).norm(), 1e-13);
-  EXPECT_GT(force_on_impactor(lin, {-1, {}}).dot(lin.normal), 0) << "the target pushes outwards";
-}
-
 TEST(Degenerate, CollapsedFacesAreNumericalFailures)
 {
   const VectorXd x = vector({.1, .1}), point = vector({1, 1, 1, 1});

@@ -30,12 +30,4 @@ std::array<double, max_tangents> carry_tangential(const std::array<double, max_t
       turned(tangential[0] * tangent_from[0] + tangential[1] * tangent_from[1], normal_from, to.normal);
   return {force.dot(to.tangent[0]), force.dot(to.tangent[1])};
 }
-
-Eigen::Vector3d force_on_impactor(const ContactLinearisation &linearisation, const Multipliers &lambda)
-{
-  Eigen::Vector3d force = lambda.normal * linearisation.normal;
-  for (int c = 0; c < linearisation.n_tangents(); ++c)
-    force += lambda.tangential[c] * linearisation.tangent[c];
-  return -force;
-}
 } // namespace amontons

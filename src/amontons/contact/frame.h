@@ -13,8 +13,4 @@ std::array<double, max_tangents> carry_tangential(const std::array<double, max_t
                                                   const Eigen::Vector3d &normal_from,
                                                   const std::array<Eigen::Vector3d, max_tangents> &tangent_from,
                                                   const ContactLinearisation &to);
-
-/// Force of the multipliers on the impactor node, in space: lambda_n n + lambda_t . e with its sign turned, since the
-/// residual adds F_x to the internal forces. Same units as lambda.
-Eigen::Vector3d force_on_impactor(const ContactLinearisation &linearisation, const Multipliers &lambda);
 } // namespace amontons
