@@ -4,10 +4,11 @@
 
 namespace amontons
 {
-CoupledForm::CoupledForm(const Layout &layout, std::span<const SubdomainMatrix> subdomains, LinearSolver &solver)
+CoupledForm::CoupledForm(const Layout &layout, std::span<const SubdomainMatrix> subdomains,
+                         std::unique_ptr<LinearSolver> solver)
   : layout_(layout)
   , subdomains_(subdomains)
-  , solver_(solver)
+  , solver_(std::move(solver))
 {
 }
 
@@ -109,7 +110,7 @@ void CoupledForm::build_pattern()
         values_[k++] = mode[i];
         values_[k++] = mode[i];
       }
-  solver_.set_pattern(layout_.n_unknowns() + static_cast<Index>(modes_.size()), rows, cols);
+  solver_->set_pattern(layout_.n_unknowns() + static_cast<Index>(modes_.size()), rows, cols);
   pattern_built_ = true;
 }
 
@@ -146,22 +147,27 @@ void CoupledForm::update_dense_block(std::size_t block, const Eigen::MatrixXd &v
 
 void CoupledForm::factorize()
 {
-  solver_.set_values(values_);
-  solver_.factorize();
+  solver_->set_values(values_);
+  solver_->factorize();
 }
 
-void CoupledForm::solve(std::span<const double> rhs, std::span<double> solution)
+void CoupledForm::solve(std::span<const double> rhs, std::span<double> solution, double /*tolerance*/)
 {
   if (modes_.empty())
   {
-    solver_.solve(rhs, solution);
+    solver_->solve(rhs, solution);
     mode_reactions_.clear();
     return;
   }
   std::vector<double> b(rhs.begin(), rhs.end()), x(rhs.size() + modes_.size());
   b.resize(x.size(), 0.0);
-  solver_.solve(b, x);
+  solver_->solve(b, x);
   std::copy_n(x.begin(), solution.size(), solution.begin());
   mode_reactions_.assign(x.begin() + static_cast<std::ptrdiff_t>(solution.size()), x.end());
+}
+
+FormCounters CoupledForm::counters() const
+{
+  return {solver_->n_pattern_builds(), solver_->n_factorizations(), 0, solver_->n_iterations()};
 }
 } // namespace amontons

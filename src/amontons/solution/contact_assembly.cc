@@ -33,7 +33,7 @@ ContactElement unpaired_element(const Multipliers &lambda, int dim, double r)
 }
 } // namespace
 
-ContactAssembly::ContactAssembly(Model &model, CoupledForm &form)
+ContactAssembly::ContactAssembly(Model &model, SystemForm &form)
   : model_(model)
   , form_(form)
 {
@@ -161,10 +161,10 @@ void ContactAssembly::drop_dependent_rows(std::span<Work *const> works, const St
       filter(*work, &DependentRows::filter_sticking);
 }
 
-void ContactAssembly::write(std::size_t block, const ContactElement &e)
+void ContactAssembly::write(std::size_t block, const ContactElement &e, double r)
 {
-  form_.update_constraint(block,
-                          {e.stiffness, e.force_by_multiplier, e.constraint_by_position, e.constraint_by_multiplier});
+  form_.update_constraint(
+      block, {e.stiffness, e.force_by_multiplier, e.constraint_by_position, e.constraint_by_multiplier, r});
 }
 
 void ContactAssembly::add(const Work &work, std::span<const double> pending, ContactContribution &out)
@@ -193,7 +193,7 @@ void ContactAssembly::add(const Work &work, std::span<const double> pending, Con
     for (int m = 0; m < pattern.n_multipliers; ++m)
       out.prescribed_gap[pattern.multipliers[m]] += gap[m];
   }
-  write(work.block, e);
+  write(work.block, e, contact.augmentation(work.node));
 }
 
 ContactContribution ContactAssembly::evaluate(const State &state, std::span<const double> start,

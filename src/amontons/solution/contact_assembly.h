@@ -1,5 +1,5 @@
 #pragma once
-#include "amontons/algebra/coupled_form.h"
+#include "amontons/algebra/system_form.h"
 #include "amontons/solution/free_motions.h"
 #include "amontons/solution/model.h"
 
@@ -21,13 +21,13 @@ struct ContactContribution
   double force_norm2 = 0;               ///< sum of element forces' squares
 };
 
-/// Writes the contacts' elements into the coupled form and the residual.
+/// Writes the contacts' elements into the linearised system and the residual.
 ///
 /// At nodes that a support holds, or that are impactors in several contacts, see DependentRows.
 class ContactAssembly
 {
 public:
-  ContactAssembly(Model &model, CoupledForm &form);
+  ContactAssembly(Model &model, SystemForm &form);
 
   /// To be called whenever a face of some pair changed.
   void rebuild_pattern();
@@ -67,10 +67,10 @@ private:
                                   std::span<const double> pending, bool forced, bool first);
   void drop_dependent_rows(std::span<Work *const> works, const State &state) const;
   void add(const Work &work, std::span<const double> pending, ContactContribution &out);
-  void write(std::size_t block, const ContactElement &element);
+  void write(std::size_t block, const ContactElement &element, double r);
 
   Model &model_;
-  CoupledForm &form_;
+  SystemForm &form_;
   std::vector<std::size_t> first_block_; ///< of each contact
   std::vector<char> special_;            ///< by node of the mesh: rows may depend on each other
   std::vector<HoldingNode> holding_;

@@ -1,5 +1,7 @@
 #include "amontons/solution/newton.h"
 
+#include "amontons/solution/form_choice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -98,9 +100,8 @@ Newton::Newton(Model &model, Counters &counters, Timers &timers, std::function<v
   , counters_(counters)
   , timers_(timers)
   , report_(std::move(report))
-  , solver_(make_direct_solver())
-  , form_(model.layout(), model.bodies().subdomains(), *solver_)
-  , contacts_(model, form_)
+  , form_(make_form(model))
+  , contacts_(model, *form_)
   , free_motions_(model)
 {
   free_motions_.check_restrained();
@@ -144,7 +145,7 @@ void Newton::prepare_matrix(const State &state, double time)
 {
   const auto scope = timers_.measure("bulk_assembly");
   model_.update_layout(state);
-  const bool rebuilt = form_.prepare();
+  const bool rebuilt = form_->prepare();
   if (rebuilt)
     ++counters_.n_pattern_builds;
   bool fresh = rebuilt;
@@ -157,7 +158,7 @@ void Newton::prepare_matrix(const State &state, double time)
     fresh = true;
   }
   if (fresh)
-    form_.update_subdomains();
+    form_->update_subdomains();
 }
 
 void Newton::compute_residual(Evaluation &out, const State &state, double time,
@@ -255,7 +256,7 @@ void Newton::update_rigid_blocks(const State &state, std::span<const double> con
     for (int axis = 0; axis < 3; ++axis)
       if (bodies[b].rotation[axis].unknown >= 0)
         axes.push_back(axis);
-    form_.update_dense_block(b, moment(axes, axes));
+    form_->update_dense_block(b, moment(axes, axes));
   }
 }
 
@@ -265,7 +266,7 @@ void Newton::restrain(Evaluation &at, const State &state, const State &start, do
     return;
   const FreeMotions::Decision decision =
       free_motions_.decide(state, contacts_.holding(), contacts_.candidates(), at.residual, time, at.scale);
-  const bool bordered = form_.set_held_modes(decision.held_modes);
+  const bool bordered = form_->set_held_modes(decision.held_modes);
   if (!decision.closed.empty() || bordered)
     at = evaluate(state, start, time, decision.closed, first);
 }
@@ -275,11 +276,11 @@ std::vector<double> Newton::solve_linear(const Evaluation &at)
   std::vector<double> step(at.rhs.size());
   {
     const auto scope = timers_.measure("linear_setup");
-    form_.factorize();
+    form_->factorize();
     ++counters_.n_factorizations;
   }
   const auto scope = timers_.measure("linear_solve");
-  form_.solve(at.rhs, step);
+  form_->solve(at.rhs, step, 0);
   ++counters_.n_linear_iterations;
   for (const double x : step)
     if (!std::isfinite(x))
@@ -413,7 +414,7 @@ NewtonOutcome Newton::solve(State &state, double time)
   now.state = state;
   try
   {
-    form_.set_held_modes({});
+    form_->set_held_modes({});
     contacts_.forget_slip();
     detect(now.state);
     now.at = evaluate(now.state, start, time, {}, true);

@@ -1,6 +1,5 @@
 #pragma once
-#include "amontons/algebra/coupled_form.h"
-#include "amontons/algebra/linear_solver.h"
+#include "amontons/algebra/system_form.h"
 #include "amontons/base/timer.h"
 #include "amontons/solution/contact_assembly.h"
 #include "amontons/solution/free_motions.h"
@@ -63,8 +62,7 @@ private:
   Counters &counters_;
   Timers &timers_;
   std::function<void(const IterationReport &)> report_;
-  std::unique_ptr<LinearSolver> solver_;
-  CoupledForm form_;
+  std::unique_ptr<SystemForm> form_;
   ContactAssembly contacts_;
   FreeMotions free_motions_;
   double reach_ = 0;
