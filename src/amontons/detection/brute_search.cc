@@ -26,7 +26,7 @@ public:
       {
         const Candidate candidate = on(f, x);
         if (candidate.squared_distance <= best.squared_distance &&
-            (best.face < 0 || comes_before(surface, candidate, best)))
+            (best.face < 0 || comes_before(surface, candidate, best)) && query.sees(node, f))
           best = candidate;
       }
       result[node] = best;
@@ -38,7 +38,7 @@ public:
   {
     const Eigen::Vector3d x = point_of(query.x, target.surface().dim, node);
     for (Index f = 0; f < target.surface().n_faces(); ++f)
-      if (const Candidate candidate = on(f, x); candidate.squared_distance <= radius * radius)
+      if (const Candidate candidate = on(f, x); candidate.squared_distance <= radius * radius && query.sees(node, f))
         result.push_back(candidate);
   }
 

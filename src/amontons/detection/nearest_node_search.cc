@@ -30,7 +30,7 @@ private:
   void size_cells(const Target &target, const Query &query);
   [[nodiscard]] double cell_position(const Vector3d &x, int axis) const { return (x[axis] - low_[axis]) / cell_[axis]; }
   [[nodiscard]] Index cell_of(const Vector3d &x) const;
-  [[nodiscard]] Index nearest(const Vector3d &x, double w, const Surface &surface) const;
+  [[nodiscard]] Index nearest(const Query &query, Index node, const Surface &surface) const;
 
   int dim_ = 2;
   Vector3d low_, cell_;
@@ -113,8 +113,14 @@ void NearestNodeSearch::fill(const Target &target, const Query &query)
 }
 
 // Among the node's own cell and those on its side of it: its ball of radius w reaches no others.
-Index NearestNodeSearch::nearest(const Vector3d &x, double w, const Surface &surface) const
+Index NearestNodeSearch::nearest(const Query &query, Index node, const Surface &surface) const
 {
+  const Vector3d x = point_of(query.x, dim_, node);
+  const auto sees_a_face_of = [&](Index other)
+  {
+    const auto faces = surface.faces_of_node(other);
+    return std::any_of(faces.begin(), faces.end(), [&](Index f) { return query.sees(node, f); });
+  };
   std::array<Index, 3> first{0, 0, 0}, last{0, 0, 0};
   for (int c = 0; c < dim_; ++c)
   {
@@ -124,7 +130,7 @@ Index NearestNodeSearch::nearest(const Vector3d &x, double w, const Surface &sur
     first[c] = std::max(lower_half ? cell - 1 : cell, 0);
     last[c] = std::min(lower_half ? cell : cell + 1, n_cells_[c] - 1);
   }
-  double best = w * w;
+  double best = query.w * query.w;
   Index result = -1;
   for (Index i = first[0]; i <= last[0]; ++i)
     for (Index j = first[1]; j <= last[1]; ++j)
@@ -136,8 +142,11 @@ Index NearestNodeSearch::nearest(const Vector3d &x, double w, const Surface &sur
           const double squared_distance = (x - sorted_[s].x).squaredNorm();
           if (squared_distance > best)
             continue;
-          if (result < 0 || squared_distance < best || surface.node_ids[sorted_[s].node] < surface.node_ids[result])
-            result = sorted_[s].node;
+          if (result >= 0 && squared_distance == best && surface.node_ids[sorted_[s].node] > surface.node_ids[result])
+            continue;
+          if (query.exclusions && !sees_a_face_of(sorted_[s].node))
+            continue;
+          result = sorted_[s].node;
           best = squared_distance;
         }
       }
@@ -151,7 +160,7 @@ void NearestNodeSearch::closest(const Target &target, const Query &query, std::s
   {
     const auto time = timers.measure("nearest");
     for (const Index node : order_)
-      nearest_[node] = nearest(point_of(query.x, dim_, node), query.w, surface);
+      nearest_[node] = nearest(query, node, surface);
   }
   const auto time = timers.measure("projection");
   for (const Index node : order_)
@@ -162,7 +171,7 @@ void NearestNodeSearch::closest(const Target &target, const Query &query, std::s
     const Vector3d x = point_of(query.x, dim_, node);
     for (const Index f : surface.faces_of_node(nearest_[node]))
       if (const Candidate candidate = candidate_on(target, f, x);
-          result[node].face < 0 || comes_before(surface, candidate, result[node]))
+          (result[node].face < 0 || comes_before(surface, candidate, result[node])) && query.sees(node, f))
         result[node] = candidate;
   }
 }
@@ -174,7 +183,8 @@ void NearestNodeSearch::minima(const Target &target, const Query &query, Index n
     return;
   const Vector3d x = point_of(query.x, dim_, node);
   for (const Index f : target.surface().faces_of_node(nearest_[node]))
-    if (const Candidate candidate = candidate_on(target, f, x); candidate.squared_distance <= radius * radius)
+    if (const Candidate candidate = candidate_on(target, f, x);
+        candidate.squared_distance <= radius * radius && query.sees(node, f))
       result.push_back(candidate);
 }
 } // namespace

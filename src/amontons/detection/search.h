@@ -1,6 +1,7 @@
 #pragma once
 #include "amontons/base/timer.h"
 #include "amontons/detection/closest_feature.h"
+#include "amontons/detection/self_contact_exclusions.h"
 #include "amontons/detection/target.h"
 
 #include <memory>
@@ -16,7 +17,10 @@ struct Query
   std::span<const double> x;    ///< all nodes, [n_nodes * dim]
   std::span<const Index> nodes; ///< the nodes inside the target's box grown by w
   double w = 0;
-  std::optional<double> extension; ///< past the target's ends, where the user gave it
+  std::optional<double> extension;        ///< past the target's ends, where the user gave it
+  const Exclusions *exclusions = nullptr; ///< self-contact: the faces that a node does not see; null: it sees all
+
+  [[nodiscard]] bool sees(Index node, Index face) const { return !exclusions || !exclusions->excluded(node, face); }
 };
 
 /// Finds closest faces: what the detection methods differ in. Buffers stay between calls.
@@ -28,7 +32,7 @@ public:
   /// Takes in where the target is now.
   virtual void fill(const Target &target, const Query &query) = 0;
 
-  /// For each node of the query the face with the closest point within w, -1 without; equal distances go to the
+  /// For each node of the query the face it sees with the closest point within w, -1 without; equal distances go to the
   /// smaller face id.
   /// @param result [n_nodes], all of the impactor's; on entry what the last detection found, as a hint
   /// @param timers the phases "nearest" and, where it is a step of its own, "projection"

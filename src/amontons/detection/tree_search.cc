@@ -56,7 +56,7 @@ public:
         {
           ++n_looked_at_;
           if (const Candidate candidate = candidate_in(slot, tree_.order()[slot], x);
-              candidate.squared_distance <= bound)
+              candidate.squared_distance <= bound && query.sees(node, candidate.face))
             result.push_back(candidate);
         },
         [&](int level, std::size_t index)
@@ -84,7 +84,7 @@ private:
       // The face of the last detection bounds the distance.
       Candidate best{-1, {0, 0}, query.w * query.w};
       if (result[node].face >= 0)
-        consider(target.surface(), candidate_on(target, result[node].face, x), best);
+        consider(target.surface(), query, node, candidate_on(target, result[node].face, x), best);
       result[node] = best;
       largest = std::max(largest, best.squared_distance);
     }
@@ -99,7 +99,7 @@ private:
           [&](Index slot)
           {
             if (const Index f = tree_.order()[slot]; f != known)
-              consider(target.surface(), candidate_in(slot, f, x), best);
+              consider(target.surface(), query, node, candidate_in(slot, f, x), best);
           },
           [](int, std::size_t) { return true; });
     }
@@ -113,10 +113,11 @@ private:
     return result;
   }
 
-  static void consider(const Surface &surface, const Candidate &candidate, Candidate &best)
+  static void consider(const Surface &surface, const Query &query, Index node, const Candidate &candidate,
+                       Candidate &best)
   {
     if (candidate.squared_distance <= best.squared_distance &&
-        (best.face < 0 || comes_before(surface, candidate, best)))
+        (best.face < 0 || comes_before(surface, candidate, best)) && query.sees(node, candidate.face))
       best = candidate;
   }
 

@@ -24,6 +24,9 @@ struct Surface
   std::vector<Index> face_nodes;      ///< local node indices
   std::vector<GlobalIndex> face_ids;  ///< [n_faces]; ties between faces go to the smaller id
 
+  /// Which body each face bounds, [n_faces]; empty: all bound the same. Only self-contact asks.
+  std::vector<Index> face_bodies;
+
   /// Faces attached to each node, made by build_adjacency().
   std::vector<Index> node_face_offsets; ///< [n_nodes + 1]
   std::vector<Index> node_faces;
