@@ -1,5 +1,6 @@
 #include "amontons/surface/projection.h"
 
+#include "amontons/surface/closest_point_lanes.h"
 #include "amontons/surface/quadrilateral.h"
 
 #include <Eigen/Dense>
@@ -88,26 +89,30 @@ LocalPoint on_triangle_plane(const FaceCoordinates &face, const Eigen::Vector3d 
   return {(bb * ea - ab * eb) / det, (aa * eb - ab * ea) / det};
 }
 
-ClosestPoint at(const FaceCoordinates &face, LocalPoint xi, const Eigen::Vector3d &x)
+// The nodes relative to x, as the batched projections take them.
+template<int dim>
+std::array<baseline::Vec<double, dim>, 4> relative_nodes(const FaceCoordinates &face, const Eigen::Vector3d &x)
 {
-  ClosestPoint result{xi, face_point(face, xi), 0};
-  result.squared_distance = (x - result.point).squaredNorm();
+  std::array<baseline::Vec<double, dim>, 4> result{};
+  for (int k = 0; k < face.n_nodes; ++k)
+    for (int c = 0; c < dim; ++c)
+      result[k].c[c] = face.x[k][c] - x[c];
   return result;
 }
 
-ClosestPoint closest_point_on_triangle(const FaceCoordinates &face, const Eigen::Vector3d &x)
+ClosestPoint closest_point_on_quadrilateral(const FaceCoordinates &face, const Eigen::Vector3d &x)
 {
-  const LocalPoint xi = on_triangle_plane(face, x);
-  if (xi[0] > 0 && xi[1] > 0 && xi[0] + xi[1] < 1)
-    return at(face, xi, x);
-  const double a = std::clamp(on_line(face.x[0], face.x[1], x), 0.0, 1.0);
-  const double b = std::clamp(on_line(face.x[1], face.x[2], x), 0.0, 1.0);
-  const double c = std::clamp(on_line(face.x[2], face.x[0], x), 0.0, 1.0);
-  ClosestPoint best = at(face, {a, 0}, x);
-  for (const LocalPoint candidate : {LocalPoint{1 - b, b}, LocalPoint{0, 1 - c}})
-    if (const ClosestPoint other = at(face, candidate, x); other.squared_distance < best.squared_distance)
-      best = other;
-  return best;
+  bool certain = false;
+  const auto nodes = relative_nodes<3>(face, x);
+  const auto [s, t, squared_distance] = baseline::closest_on_quadrilateral<double>(nodes.data(), certain);
+  if (certain)
+    return {{s, t}, face_point(face, {s, t}), squared_distance};
+  FaceCoordinates relative = face;
+  for (Eigen::Vector3d &node : relative.x)
+    node -= x;
+  ClosestPoint result = closest_point_by_quintic(relative, Eigen::Vector3d::Zero());
+  result.point = face_point(face, result.xi);
+  return result;
 }
 
 FaceProjection projection_at(const FaceCoordinates &face, LocalPoint xi, const Eigen::Vector3d &x)
@@ -136,11 +141,12 @@ FaceProjection project_on_tangent_plane(const FaceCoordinates &face, LocalPoint 
 
 ClosestPoint closest_point(const FaceCoordinates &face, const Eigen::Vector3d &x)
 {
-  if (face.n_nodes == 2)
-    return at(face, {std::clamp(on_line(face.x[0], face.x[1], x), 0.0, 1.0), 0}, x);
-  if (face.n_nodes == 3)
-    return closest_point_on_triangle(face, x);
-  return closest_point_on_quadrilateral(face, x);
+  if (face.n_nodes == 4)
+    return closest_point_on_quadrilateral(face, x);
+  const auto nodes = relative_nodes<3>(face, x);
+  const auto [s, t, squared_distance] = face.n_nodes == 2 ? baseline::closest_on_segment<double, 3>(nodes.data())
+                                                          : baseline::closest_on_triangle<double>(nodes.data());
+  return {{s, t}, face_point(face, {s, t}), squared_distance};
 }
 
 FaceProjection project_on_face(const FaceCoordinates &face, const Eigen::Vector3d &x, LocalPoint start)

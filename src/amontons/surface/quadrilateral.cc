@@ -24,17 +24,6 @@ struct Bilinear
   Vector3d centre, p, q, warp;
 };
 
-// Whether |x - x(xi)|^2 is convex over the face: its Hessian (halved) is [a.a, m; m, b.b] with a = p + v warp,
-// b = q + u warp, m = a.b - warp.(x - x(xi)); bounds over |u|, |v| <= 1/2.
-bool convex_over_face(const Bilinear &quad, const Vector3d &x)
-{
-  const double warp2 = quad.warp.squaredNorm();
-  const double pw = std::abs(quad.p.dot(quad.warp)), qw = std::abs(quad.q.dot(quad.warp));
-  const double aa = quad.p.squaredNorm() - pw, bb = quad.q.squaredNorm() - qw;
-  const double m = std::abs(quad.p.dot(quad.q) - quad.warp.dot(x - quad.centre)) + pw + qw + 0.5 * warp2;
-  return aa > 0 && bb > 0 && aa * bb > m * m;
-}
-
 ClosestPoint at(const FaceCoordinates &face, LocalPoint xi, const Vector3d &x)
 {
   ClosestPoint result{xi, face_point(face, xi), 0};
@@ -42,15 +31,12 @@ ClosestPoint at(const FaceCoordinates &face, LocalPoint xi, const Vector3d &x)
   return result;
 }
 
-// @param edges which to look at
-ClosestPoint closest_on_edges(const FaceCoordinates &face, const Vector3d &x, std::array<bool, 4> edges)
+ClosestPoint closest_on_border(const FaceCoordinates &face, const Vector3d &x)
 {
   ClosestPoint best;
   best.squared_distance = INFINITY;
   for (std::size_t k = 0; k < 4; ++k)
   {
-    if (!edges[k])
-      continue;
     const Vector3d &a = face.x[k];
     const Vector3d direction = face.x[(k + 1) % 4] - a;
     const double length2 = direction.squaredNorm();
@@ -60,26 +46,6 @@ ClosestPoint closest_on_edges(const FaceCoordinates &face, const Vector3d &x, st
       best = candidate;
   }
   return best;
-}
-
-ClosestPoint closest_on_border(const FaceCoordinates &face, const Vector3d &x)
-{
-  return closest_on_edges(face, x, {true, true, true, true});
-}
-
-// Whether no direction into the face shortens the distance from a point of its border.
-bool is_minimum_on_face(const FaceCoordinates &face, const ClosestPoint &border, const Vector3d &x)
-{
-  const auto tangents = face_tangents(face, border.xi);
-  const Vector3d e = x - border.point;
-  for (std::size_t a = 0; a < 2; ++a)
-  {
-    const double pull = e.dot(tangents[a]);
-    const double round_off = 1e-14 * tangents[a].squaredNorm();
-    if ((border.xi[a] <= 0 && pull > round_off) || (border.xi[a] >= 1 && pull < -round_off))
-      return false;
-  }
-  return true;
 }
 
 template<std::size_t degree>
@@ -225,23 +191,5 @@ ClosestPoint closest_point_by_quintic(const FaceCoordinates &face, const Vector3
     if (const ClosestPoint polished = at(face, xi, x); polished.squared_distance <= best.squared_distance)
       best = polished;
   return best;
-}
-
-ClosestPoint closest_point_on_quadrilateral(const FaceCoordinates &face, const Vector3d &x)
-{
-  if (!convex_over_face(Bilinear(face), x))
-    return closest_point_by_quintic(face, x);
-  LocalPoint xi{0.5, 0.5};
-  if (newton_on_quadrilateral(face, x, xi))
-  {
-    if (in_face(4, xi, 0))
-      return at(face, xi, x);
-    // Mostly the edges that the extended projection lies beyond; the distance being convex, that can be checked.
-    const ClosestPoint border = closest_on_edges(face, x, {xi[1]<0, xi[0]> 1, xi[1] > 1, xi[0] < 0});
-    if (is_minimum_on_face(face, border, x))
-      return border;
-  }
-  const ClosestPoint border = closest_on_border(face, x);
-  return is_minimum_on_face(face, border, x) ? border : closest_point_by_quintic(face, x);
 }
 } // namespace amontons

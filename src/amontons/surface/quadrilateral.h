@@ -3,12 +3,10 @@
 
 namespace amontons
 {
-/// closest_point() of a bilinear quadrilateral.
-ClosestPoint closest_point_on_quadrilateral(const FaceCoordinates &face, const Eigen::Vector3d &x);
-
-/// The same by the polynomial alone, with no iteration that could go astray: for fixed xi1 the face is a straight line
-/// in xi2, so xi2 can be eliminated from the two equations of a stationary distance, which leaves a quintic in xi1; its
-/// roots in [0, 1] are isolated by the signs of its derivatives. Several times slower.
+/// closest_point() of a bilinear quadrilateral by a polynomial alone, with no iteration that could go astray: for fixed
+/// xi1 the face is a straight line in xi2, so xi2 can be eliminated from the two equations of a stationary distance,
+/// which leaves a quintic in xi1; its roots in [0, 1] are isolated by the signs of its derivatives. Several times
+/// slower.
 ClosestPoint closest_point_by_quintic(const FaceCoordinates &face, const Eigen::Vector3d &x);
 
 /// Newton's method for a stationary distance on the extended quadrilateral.

@@ -1,0 +1,45 @@
+#pragma once
+#include "amontons/surface/face_batch_kernel.h"
+#include "amontons/surface/projection.h"
+
+namespace amontons
+{
+/// Closest points of many faces to as many points, several at a time, with the widest instructions that the
+/// processor has. Each result is bit by bit that of closest_point(), on every processor.
+class FaceBatch
+{
+public:
+  static constexpr int capacity = FaceBatchView::capacity;
+
+  /// @param n_nodes of all its faces: 2 (in the plane), 3 or 4 (in space)
+  explicit FaceBatch(int n_nodes)
+    : n_nodes_(n_nodes)
+  {
+  }
+
+  /// @param corners of the face, [n_nodes][dim] @param x point, [dim] @return place in the batch
+  template<int dim>
+  int add(const double *corners, const double *x)
+  {
+    for (int k = 0; k < n_nodes_; ++k)
+      for (int c = 0; c < dim; ++c)
+        corners_[k * dim + c][size_] = corners[k * dim + c] - x[c];
+    return size_++;
+  }
+
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] bool full() const { return size_ == capacity; }
+  void clear() { size_ = 0; }
+
+  void project();
+
+  // After project().
+  [[nodiscard]] LocalPoint xi(int i) const { return {s_[i], t_[i]}; }
+  [[nodiscard]] double squared_distance(int i) const { return squared_distance_[i]; }
+
+private:
+  int n_nodes_, size_ = 0;
+  alignas(64) double corners_[12][capacity] = {};
+  alignas(64) double s_[capacity] = {}, t_[capacity] = {}, squared_distance_[capacity] = {};
+};
+} // namespace amontons
