@@ -5,5 +5,5 @@ source "$(dirname "$0")/environment.sh"
 
 how=(-i)
 [ "${1:-}" = --check ] && how=(--dry-run --Werror)
-find src app tests -name '*.h' -print0 -o -name '*.cc' -print0 |
+find src app tests benchmarks -name '*.h' -print0 -o -name '*.cc' -print0 |
   xargs -0 --max-procs=2 --max-args=20 clang-format-14 "${how[@]}"

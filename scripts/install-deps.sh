@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what building, testing and running needs on Debian 12, and selects OpenBLAS. As root, or with sudo.
 # Nothing is touched, and no network is used, when everything is there already.
+#   scripts/install-deps.sh [--benchmarks: the libraries that the benchmarks compare with, too]
 set -euo pipefail
 
 packages=(
@@ -17,6 +18,9 @@ packages=(
   # tests and benchmarks
   libgtest-dev libgmock-dev libbenchmark-dev
 )
+if [ "${1:-}" = --benchmarks ]; then
+  packages+=(libnanoflann-dev libcgal-dev libembree-dev)
+fi
 
 as_root()
 {

@@ -101,12 +101,13 @@ private:
     if (samples.distances.empty())
       samples.distances = name == "exact" || name == "nearest-node" ? own_distances(name) : method->distances();
     double again = 0;
-    for (int step = 1; step <= n_motions; ++step)
+    const int n_steps = method->keeps_pairs() ? n_motions : 1;
+    for (int step = 1; step <= n_steps; ++step)
     {
       const Phases phases = method->detect(positions_[step]);
       again += phases.build + phases.query;
     }
-    samples.again.push_back(again / n_motions * ns_);
+    samples.again.push_back(again / n_steps * ns_);
   }
 
   [[nodiscard]] std::vector<double> own_distances(const std::string &name) const

@@ -38,6 +38,9 @@ public:
   /// Distances to the target that were found, infinite where nothing was.
   [[nodiscard]] virtual std::vector<double> distances() const = 0;
 
+  /// Whether what it keeps between detections serves it, so that it is to be seen over several motions.
+  [[nodiscard]] virtual bool keeps_pairs() const { return false; }
+
   /// Memory that it holds apart from the heap.
   [[nodiscard]] virtual std::size_t bytes_apart() const { return 0; }
 };

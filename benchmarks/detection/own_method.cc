@@ -58,6 +58,8 @@ public:
     return result;
   }
 
+  [[nodiscard]] bool keeps_pairs() const override { return options_.method == DetectionMethod::exact; }
+
 private:
   const Scene &scene_;
   Surface without_faces_;
