@@ -25,6 +25,7 @@ struct ContactOptions
   std::string impactor;            ///< physical group of faces
   std::string target;              ///< physical group of faces, or the name of an analytic rigid body
   double friction_coefficient = 0; ///< Coulomb's mu, >= 0
+  bool tied = false;               ///< the sides are held together as they are at the start, whatever the forces
   InitialOverlap initial_overlap = InitialOverlap::resolve;
   TargetNormals normals = TargetNormals::faceted;
   double augmentation = 1; ///< factor on the automatic r, > 0; the converged result does not depend on it

@@ -48,6 +48,10 @@ Section<ContactOptions> contact_keys()
   keys.map<FrictionOptions>(
       "friction", friction_keys(), otherwise("none: the surfaces slide freely"), "what the surfaces do when they slide",
       [](ContactOptions &contact, FrictionOptions friction) { contact.friction_coefficient = friction.coefficient; });
+  keys.boolean(
+      "tied", &ContactOptions::tied, optional,
+      "true: each impactor node that finds a target face keeps its place on it, gap and all, and takes tension "
+      "too; for bodies that are joined but whose meshes do not match");
   keys.choice("initial-overlap", &ContactOptions::initial_overlap,
               {{"resolve", InitialOverlap::resolve}, {"adjust", InitialOverlap::adjust}}, optional,
               "nodes inside the target before anything moves; resolve: a press-fit, pushed out in the first increment; "
@@ -64,6 +68,10 @@ Section<ContactOptions> contact_keys()
       [](const Value &value, ContactOptions &contact, ReadContext &)
       {
         contact.where = value.where;
+        if (const Value *friction = value.find("friction"); friction && contact.tied)
+          friction->fail("has no meaning with tied: true");
+        if (const Value *overlap = value.find("initial-overlap"); overlap && contact.tied)
+          overlap->fail("has no meaning with tied: true, which keeps the initial gap");
         if (contact.impactor == contact.target)
           value.find("target")->fail("the impactor and the target are the same, '" + contact.target +
                                      "'; a contact pair has two sides");

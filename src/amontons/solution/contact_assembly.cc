@@ -89,12 +89,13 @@ void ContactAssembly::rebuild_pattern()
 
 /// What sigma decides, but for a node whose slip would turn back within one step: it sticks for an iteration, since
 /// between slip one way and slip the other lies stick.
-ContactStatus ContactAssembly::decide_status(std::size_t block, const ContactLinearisation &now,
-                                             const Multipliers &lambda, double mu, double r)
+ContactStatus ContactAssembly::decide_status(const ContactInterface &contact, Index i, std::size_t block,
+                                             const ContactLinearisation &now, const Multipliers &lambda)
 {
-  const ContactStatus status = contact_status(now, lambda, mu, r);
+  const ContactStatus status = contact.status(i, now, lambda);
+  const double r = contact.augmentation(i);
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  if (status == ContactStatus::slip && mu > 0)
+  if (status == ContactStatus::slip && contact.options().friction_coefficient > 0)
     for (int a = 0; a < now.n_tangents(); ++a)
       direction += (lambda.tangential[a] + r * now.slip[a]) * now.tangent[a];
   trial_direction_[block] = direction;
@@ -120,8 +121,9 @@ ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t 
   }
   const ContactLinearisation now = contact.linearise(i, state.displacement, start);
   const double mu = contact.options().friction_coefficient;
-  ContactStatus status = decide_status(block, now, lambda, mu, r);
-  if (first && status != ContactStatus::open && contact.committed_status(i) != ContactStatus::open)
+  ContactStatus status = decide_status(contact, i, block, now, lambda);
+  if (first && !contact.options().tied && status != ContactStatus::open &&
+      contact.committed_status(i) != ContactStatus::open)
     status = contact.committed_status(i);
   const bool force_closed = forced && status == ContactStatus::open;
   work.element = force_closed ? contact_element(now, lambda, 0, r, ContactStatus::slip)

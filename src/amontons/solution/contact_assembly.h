@@ -61,8 +61,8 @@ private:
     ContactElement element;
   };
   void find_shared_nodes();
-  [[nodiscard]] ContactStatus decide_status(std::size_t block, const ContactLinearisation &now,
-                                            const Multipliers &lambda, double mu, double r);
+  [[nodiscard]] ContactStatus decide_status(const ContactInterface &contact, Index i, std::size_t block,
+                                            const ContactLinearisation &now, const Multipliers &lambda);
   [[nodiscard]] Work make_element(int c, Index i, std::size_t block, const State &state, std::span<const double> start,
                                   std::span<const double> pending, bool forced, bool first);
   void drop_dependent_rows(std::span<Work *const> works, const State &state) const;

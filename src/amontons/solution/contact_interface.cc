@@ -245,7 +245,7 @@ bool ContactInterface::begin_increment(std::span<const double> start, std::span<
     const double gap = linearise_with_origin(i, start, start).gap;
     start_gap_[i] = gap;
     const double size = std::pow(areas_[i], 1.0 / (dim_ - 1));
-    has_origin_[i] = multipliers[multiplier(i)] < 0 || gap <= touching * size;
+    has_origin_[i] = options_.tied || multipliers[multiplier(i)] < 0 || gap <= touching * size;
   }
   return restore;
 }
@@ -344,10 +344,15 @@ ContactLinearisation ContactInterface::linearise(Index i, std::span<const double
   return linearise_with_origin(i, displacement, start);
 }
 
-void ContactInterface::adjust_initial_overlap(std::span<const double> displacement)
+void ContactInterface::set_initial_gap(std::span<const double> displacement)
 {
+  if (!options_.tied && options_.initial_overlap == InitialOverlap::resolve)
+    return;
   for (Index i = 0; i < n_nodes(); ++i)
     if (paired(i))
-      gap_offset_[i] = std::min(0.0, linearise_with_origin(i, displacement, displacement).gap);
+    {
+      const double gap = linearise_with_origin(i, displacement, displacement).gap;
+      gap_offset_[i] = options_.tied ? gap : std::min(0.0, gap);
+    }
 }
 } // namespace amontons

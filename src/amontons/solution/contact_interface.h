@@ -42,8 +42,9 @@ public:
   /// Nodes of element i: the impactor node, then the face's (or the shape's point). @return their number, at most 5
   int nodes(Index i, std::array<Index, 5> &nodes) const;
 
-  /// Takes the overlap in this configuration as zero gap (InitialOverlap::adjust).
-  void adjust_initial_overlap(std::span<const double> displacement);
+  /// Measures gaps from those in this configuration: the overlaps where they are to be adjusted, all where the sides
+  /// are tied.
+  void set_initial_gap(std::span<const double> displacement);
 
   /// Detects in the given configuration. In small strain only the reference counts.
   /// @param keep hold on to the present face where the projection has hardly left it (within an increment)
@@ -57,6 +58,13 @@ public:
   /// Gap and slip of node i. Where the node was open at the beginning and is closed now for the first time, the slip's
   /// origin is the point where its gap vanished on the way (THEORY: the instant of closing).
   ContactLinearisation linearise(Index i, std::span<const double> displacement, std::span<const double> start);
+
+  /// What sigma decides; stick where the sides are tied.
+  [[nodiscard]] ContactStatus status(Index i, const ContactLinearisation &now, const Multipliers &lambda) const
+  {
+    return options_.tied ? ContactStatus::stick
+                         : contact_status(now, lambda, options_.friction_coefficient, augmentation_[i]);
+  }
 
   /// Turns the tangential multipliers of nodes whose face detect() changed into the frame of their new face.
   void turn_multipliers(std::span<const double> displacement, std::span<double> multipliers);
@@ -113,7 +121,7 @@ private:
   std::vector<Eigen::Vector3d> slip_origin_;
   std::vector<char> has_origin_;
   std::vector<double> start_gap_;
-  std::vector<double> gap_offset_;    ///< initial overlap that is taken as zero
+  std::vector<double> gap_offset_;    ///< initial gap that is taken as zero
   std::vector<ContactStatus> status_; ///< at the increment's beginning
   std::vector<double> total_slip_;    ///< [n * (dim-1)]
   std::vector<OldFrame> old_frames_;  ///< of nodes whose face the last detect() changed, in 3D

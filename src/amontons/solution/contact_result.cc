@@ -63,7 +63,7 @@ ContactResult ContactInterface::result(std::span<const double> displacement, std
     const Multipliers lambda{values[0], {values[1], n_tangents > 1 ? values[2] : 0}};
     out.gap[i] = now.gap;
     out.min_gap = std::min(out.min_gap, now.gap);
-    out.status[i] = contact_status(now, lambda, options_.friction_coefficient, augmentation_[i]);
+    out.status[i] = status(i, now, lambda);
     if (out.status[i] == ContactStatus::open)
       continue;
     add_closed_node(out, i, now, lambda);

@@ -72,8 +72,7 @@ void detect_first(Model &model, const State &state)
     const auto [separation, extent] = separation_and_extent(contact);
     const double motion = model.prescribed_motion(0, model.options().loading.end);
     contact.detect(state.displacement, separation + std::max(motion, small_strain_reach * extent), false);
-    if (contact.options().initial_overlap == InitialOverlap::adjust)
-      contact.adjust_initial_overlap(state.displacement);
+    contact.set_initial_gap(state.displacement);
   }
 }
 
@@ -85,7 +84,7 @@ std::vector<std::string> initial_warnings(const Model &model)
     const DetectionReport report = contact.detection_report();
     if (report.n_pairs == 0)
       out.push_back("contact '" + contact.options().name + "': no node of the impactor finds the target");
-    if (!contact.target() || report.deepest_node < 0)
+    if (!contact.target() || report.deepest_node < 0 || contact.options().tied)
       continue;
     const double size = std::pow(contact.areas()[report.deepest_node], 1.0 / (model.dim() - 1));
     if (report.deepest < -overlap_to_tell * size)

@@ -1,0 +1,86 @@
+#include "problem.h"
+
+#include <gtest/gtest.h>
+
+/// Bodies that are held together: bars in a row, whatever their meshes, gap and the sign of the force.
+namespace amontons::test
+{
+namespace
+{
+constexpr double gap = 0.004, pull = 0.03, push = 0.02;
+
+/// Two bars of height 1 without Poisson's effect, pulled to t = 1 and sheared to t = 2, with a gap between them.
+Problem tied_bars(int dim, Strain strain)
+{
+  Blocks blocks(dim);
+  blocks.add("lower", {0, 0, 0}, dim == 2 ? Point(1, 1, 0) : Point(1, 1, 1), {3, 2, 2});
+  blocks.add("upper", dim == 2 ? Point(0, 1 + gap, 0) : Point(0, 0, 1 + gap),
+             dim == 2 ? Point(1, 1, 0) : Point(1, 1, 1), {2, 3, 2});
+  Problem problem(blocks, dim == 2 ? Kinematics::plane_strain : Kinematics::three_dimensional, strain);
+  problem.elastic("lower", 3, 0);
+  problem.elastic("upper", 1, 0);
+  problem.contact("upper_bottom", "lower_top").tied = true;
+  for (int c = 0; c < dim; ++c)
+    problem.on("lower_bottom").fix.push_back(c);
+  BoundaryOptions &top = problem.on("upper_top");
+  top.displacement[dim - 1] = expression(std::to_string(pull) + "*min(t,1)");
+  top.displacement[0] = expression(std::to_string(push) + "*max(t-1,0)");
+  if (dim == 3)
+    top.displacement[1] = expression(0);
+  problem.options.loading.end = 2;
+  problem.options.loading.increments = 2;
+  return problem;
+}
+
+TEST(Tied, BarsInARowTakeTension)
+{
+  for (const int dim : {2, 3})
+  {
+    const Record run = tied_bars(dim, Strain::small).converge();
+    ASSERT_EQ(run.states.size(), 3u);
+    EXPECT_EQ(run.iterations(), (std::vector{1, 1})) << "the system is linear";
+    EXPECT_TRUE(run.warnings.empty());
+    // Nodes move apart by the bars' own strain alone: their compliances in a row.
+    const double pressure = -pull / (1.0 / 3 + 1.0);
+    const ContactResult &contact = run.states[1].contacts[0];
+    for (const double p : contact.pressure)
+      EXPECT_NEAR(p, pressure, 0.35 * -pressure) << "a node-to-face tie passes a constant stress in the mean only";
+    EXPECT_NEAR(total_force(contact)[dim - 1], pressure, 2e-3 * -pressure);
+    EXPECT_NEAR(run.reaction("upper_top")[dim - 1], 0 - total_force(run.contact())[dim - 1], 1e-12);
+    EXPECT_NEAR(run.reaction("upper_top")[0], -total_force(run.contact())[0], 1e-12);
+    EXPECT_GT(run.reaction("upper_top")[0], 0.1 * push);
+  }
+}
+
+/// With meshes that match, the tied bars are one bar.
+TEST(Tied, MatchingMeshesAreOneBody)
+{
+  for (const Strain strain : {Strain::small, Strain::finite})
+  {
+    const auto bar = [&](bool tied)
+    {
+      Blocks blocks(2);
+      blocks.add("lower", {0, 0, 0}, {1, tied ? 1. : 2., 0}, {3, tied ? 2 : 4, 0});
+      if (tied)
+        blocks.add("upper", {0, 1, 0}, {1, 1, 0}, {3, 2, 0});
+      Problem problem(blocks, Kinematics::plane_strain, strain);
+      problem.elastic("lower", 1, 0.3);
+      if (tied)
+      {
+        problem.elastic("upper", 1, 0.3);
+        problem.contact("upper_bottom", "lower_top").tied = true;
+      }
+      problem.on("lower_bottom").fix = {0, 1};
+      BoundaryOptions &top = problem.on(tied ? "upper_top" : "lower_top");
+      top.displacement = {{0, expression("0.1*t")}, {1, expression("0.2*t")}};
+      problem.options.loading.increments = 4;
+      problem.options.solver.tolerance = 1e-11;
+      const Record run = problem.converge();
+      return run.reaction(tied ? "upper_top" : "lower_top");
+    };
+    const Point tied = bar(true), whole = bar(false);
+    EXPECT_LT((tied - whole).norm(), 1e-10 * whole.norm());
+  }
+}
+} // namespace
+} // namespace amontons::test
