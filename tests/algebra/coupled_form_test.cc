@@ -222,24 +222,5 @@ TEST_F(CoupledFormTest, SingularMatrixIsAFailure)
   form_->update_constraint(0, {none, no_force, no_row, zero, 1});
   EXPECT_THROW((void)solve(Eigen::VectorXd::Ones(9)), NumericalFailure);
 }
-
-TEST(DirectSolver, SumsRepeatedEntriesAndSaysWhatIsSingular)
-{
-  const auto solver = make_direct_solver();
-  const std::vector<Index> rows{0, 0, 1, 1, 0}, cols{0, 1, 0, 1, 0};
-  solver->set_pattern(2, rows, cols);
-  solver->set_values(std::vector<double>{1, 2, 3, 4, 5}); // [6 2; 3 4]
-  solver->factorize();
-  std::vector<double> x(2);
-  solver->solve(std::vector<double>{10, 14}, x);
-  EXPECT_NEAR(x[0], 2. / 3, 1e-14);
-  EXPECT_NEAR(x[1], 3, 1e-14);
-  solver->set_values(std::vector<double>{1, 2, 0, 0, 2}); // [3 2; 0 0]
-  EXPECT_THROW(solver->factorize(), NumericalFailure);
-  solver->set_values(std::vector<double>{1, 2, 3, 4, 5});
-  solver->factorize();
-  solver->solve(std::vector<double>{10, 14}, x);
-  EXPECT_NEAR(x[1], 3, 1e-14) << "a failure leaves the solver usable";
-}
 } // namespace
 } // namespace amontons

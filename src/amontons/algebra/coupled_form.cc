@@ -101,16 +101,17 @@ void CoupledForm::build_pattern()
         add(border, i);
       }
   }
-  values_.assign(rows.size(), 0);
+  entries_.assign(rows.size(), 0);
   std::size_t k = mode_offset;
   for (const auto &mode : modes_)
     for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
       if (mode[i] != 0)
       {
-        values_[k++] = mode[i];
-        values_[k++] = mode[i];
+        entries_[k++] = mode[i];
+        entries_[k++] = mode[i];
       }
-  solver_->set_pattern(layout_.n_unknowns() + static_cast<Index>(modes_.size()), rows, cols);
+  positions_ = make_pattern(matrix_, layout_.n_unknowns() + static_cast<Index>(modes_.size()), rows, cols);
+  solver_->set_matrix(matrix_);
   pattern_built_ = true;
 }
 
@@ -125,7 +126,7 @@ bool CoupledForm::prepare()
 void CoupledForm::update_subdomains()
 {
   std::size_t k = 0;
-  visit_subdomains([&](Index, Index, double factor, double value) { values_[k++] = factor * value; });
+  visit_subdomains([&](Index, Index, double factor, double value) { entries_[k++] = factor * value; });
 }
 
 void CoupledForm::update_constraint(std::size_t constraint, const ConstraintValues &v)
@@ -134,7 +135,7 @@ void CoupledForm::update_constraint(std::size_t constraint, const ConstraintValu
   const std::array<const Eigen::Ref<const Eigen::MatrixXd> *, 4> blocks{
       &v.stiffness, &v.force_by_multiplier, &v.constraint_by_position, &v.constraint_by_multiplier};
   visit_constraint(constraints_[constraint], [&](Index, Index, double factor, int block, int i, int j)
-                   { values_[k++] = factor * (*blocks[block])(i, j); });
+                   { entries_[k++] = factor * (*blocks[block])(i, j); });
 }
 
 void CoupledForm::update_dense_block(std::size_t block, const Eigen::MatrixXd &values)
@@ -142,12 +143,14 @@ void CoupledForm::update_dense_block(std::size_t block, const Eigen::MatrixXd &v
   std::size_t k = dense_offsets_[block];
   for (Eigen::Index i = 0; i < values.rows(); ++i)
     for (Eigen::Index j = 0; j < values.cols(); ++j)
-      values_[k++] = values(i, j);
+      entries_[k++] = values(i, j);
 }
 
 void CoupledForm::factorize()
 {
-  solver_->set_values(values_);
+  std::fill(matrix_.values.begin(), matrix_.values.end(), 0.0);
+  for (std::size_t k = 0; k < entries_.size(); ++k)
+    matrix_.values[positions_[k]] += entries_[k];
   solver_->factorize();
 }
 
@@ -155,13 +158,13 @@ void CoupledForm::solve(std::span<const double> rhs, std::span<double> solution,
 {
   if (modes_.empty())
   {
-    solver_->solve(rhs, solution);
+    solver_->solve(rhs, solution, 0);
     mode_reactions_.clear();
     return;
   }
   std::vector<double> b(rhs.begin(), rhs.end()), x(rhs.size() + modes_.size());
   b.resize(x.size(), 0.0);
-  solver_->solve(b, x);
+  solver_->solve(b, x, 0);
   std::copy_n(x.begin(), solution.size(), solution.begin());
   mode_reactions_.assign(x.begin() + static_cast<std::ptrdiff_t>(solution.size()), x.end());
 }

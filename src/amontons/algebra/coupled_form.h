@@ -46,7 +46,9 @@ private:
   std::vector<std::vector<Index>> dense_blocks_;
   std::vector<std::vector<double>> modes_;
   std::vector<std::size_t> constraint_offsets_, dense_offsets_;
-  std::vector<double> values_;
+  std::vector<double> entries_;  ///< in the order in which they are visited
+  std::vector<Index> positions_; ///< of the entries among the matrix's values
+  SparseMatrix matrix_;
   std::vector<double> mode_reactions_;
   bool pattern_built_ = false;
 };

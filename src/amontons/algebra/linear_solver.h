@@ -1,5 +1,5 @@
 #pragma once
-#include "amontons/base/ids.h"
+#include "amontons/algebra/sparse_matrix.h"
 
 #include <cstdint>
 #include <memory>
@@ -14,19 +14,26 @@ class LinearSolver
 public:
   virtual ~LinearSolver() = default;
 
-  /// Pattern as a list of entries, rows[k], cols[k] in 0 .. n-1; repeated entries are summed.
-  virtual void set_pattern(Index n, std::span<const Index> rows, std::span<const Index> cols) = 0;
-  /// Values in the order of the pattern's entries.
-  virtual void set_values(std::span<const double> values) = 0;
-  /// Makes ready for solve() with the present values. @throws NumericalFailure if the matrix is singular
+  /// A matrix with a new pattern. It stays the caller's, who may change its values in place and must keep it.
+  virtual void set_matrix(const SparseMatrix &matrix) = 0;
+  /// Makes ready for solve() with the present values. @throws NumericalFailure if the matrix is found singular
   virtual void factorize() = 0;
-  virtual void solve(std::span<const double> rhs, std::span<double> solution) = 0;
+  /// @param solution overwritten
+  /// @param tolerance an iteration stops where |rhs - A x| is below it (as a force, not a part); a factorisation takes
+  ///        no notice
+  /// @throws NumericalFailure if the iteration does not converge
+  virtual void solve(std::span<const double> rhs, std::span<double> solution, double tolerance) = 0;
 
-  [[nodiscard]] virtual std::int64_t n_factorizations() const = 0;
+  /// Vectors that the matrix, seen locally, makes almost zero: a body's rigid motions. For multigrid.
+  [[nodiscard]] virtual bool wants_smooth_modes() const { return false; }
+  virtual void set_smooth_modes(std::vector<std::vector<double>> /*modes*/) {}
+
+  [[nodiscard]] virtual std::int64_t n_factorizations() const { return 0; }
+  [[nodiscard]] virtual std::int64_t n_preconditioner_setups() const { return 0; }
   [[nodiscard]] virtual std::int64_t n_pattern_builds() const = 0;
   [[nodiscard]] virtual std::int64_t n_iterations() const = 0;
 };
 
-/// Sparse LU of an indefinite, unsymmetric matrix (MUMPS), on the calling process.
+/// Factorisation by MUMPS on the calling process: LDL^T of a symmetric matrix, LU of any other.
 std::unique_ptr<LinearSolver> make_direct_solver();
 } // namespace amontons
