@@ -42,10 +42,11 @@ int position_of(std::span<const Index> nodes, Index node)
 class FeatureView
 {
 public:
-  FeatureView(const Target &target, const Candidate &candidate, const Vector3d &x, bool only_minima)
+  FeatureView(const Target &target, const Candidate &candidate, const Vector3d &x, bool only_minima, Sight sight)
     : target_(target)
     , x_(x)
     , only_minima_(only_minima)
+    , sight_(sight)
     , face_(candidate.face)
     , coordinates_(target.face(candidate.face))
     , point_(face_point(coordinates_, candidate.xi))
@@ -88,6 +89,7 @@ private:
   const Target &target_;
   const Vector3d &x_;
   bool only_minima_;
+  Sight sight_;
   Index face_;
   FaceCoordinates coordinates_;
   Vector3d point_, offset_;
@@ -127,6 +129,8 @@ bool better(const AttachedFace &a, const AttachedFace &b, double round_off, cons
 void FeatureView::take(const AttachedFace &attached)
 {
   pseudonormal_ += attached.angle * attached.normal;
+  if (!sight_.sees(attached.face))
+    return;
   const double round_off = same * size_;
   if (attached.signed_distance >= -round_off && better(attached, outer_, round_off, target_.surface()))
     outer_ = attached;
@@ -229,8 +233,8 @@ void FeatureView::choose(FaceFeature type)
 }
 } // namespace
 
-Feature look_at(const Target &target, const Candidate &candidate, const Vector3d &x, bool only_minima)
+Feature look_at(const Target &target, const Candidate &candidate, const Vector3d &x, bool only_minima, Sight sight)
 {
-  return FeatureView(target, candidate, x, only_minima).look(candidate.xi);
+  return FeatureView(target, candidate, x, only_minima, sight).look(candidate.xi);
 }
 } // namespace amontons

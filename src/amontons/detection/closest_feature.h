@@ -1,9 +1,7 @@
 #pragma once
+#include "amontons/detection/self_contact_exclusions.h"
 #include "amontons/detection/target.h"
 #include "amontons/surface/pairing.h"
-
-#include <optional>
-#include <vector>
 
 namespace amontons
 {
@@ -41,5 +39,7 @@ struct Feature
 /// angles, which is right at every vertex of a closed surface (Baerentzen, Aanaes 2005); only faces that agree with it
 /// are chosen.
 /// @param only_minima give up, with only `is_minimum` set, where the candidate is not one
-Feature look_at(const Target &target, const Candidate &candidate, const Eigen::Vector3d &x, bool only_minima = false);
+/// @param sight faces that are hidden from the node are not chosen (the candidate's own is seen)
+Feature look_at(const Target &target, const Candidate &candidate, const Eigen::Vector3d &x, bool only_minima = false,
+                Sight sight = {});
 } // namespace amontons

@@ -3,6 +3,7 @@
 #include "amontons/base/error.h"
 #include "amontons/detection/search.h"
 #include "amontons/detection/search_distance.h"
+#include "amontons/detection/self_contact_roles.h"
 #include "amontons/detection/visiting_order.h"
 
 #include <Eigen/Dense>
@@ -68,6 +69,13 @@ public:
       throw UserError("the detection's extension must be a length, zero or more");
   }
 
+  /// Impactor and target are the same surface.
+  void set_self_contact(std::optional<double> self_distance)
+  {
+    exclusions_.emplace(impactor_, self_distance);
+    roles_.emplace(impactor_);
+  }
+
   const Pairing &detect(std::span<const double> impactor_x, std::span<const double> target_x, double reach) override;
   [[nodiscard]] DetectionReport report() const override { return report_; }
 
@@ -76,22 +84,27 @@ private:
   {
     taken,
     past_end,
-    behind
+    behind,
+    through_own_wall
   };
 
   void choose_nodes(std::span<const double> impactor_x, std::span<const double> target_x);
-  Verdict judge(const Feature &feature, Index node) const;
+  Verdict judge(const Feature &feature, Index node);
+  bool own_wall_within(double distance, Index node);
   Vector3d impactor_normal(Index node) const;
   Pair pair_of(Index node);
   Pair next_best(Index node, const Vector3d &x);
-  Pair best_of_considered(Index node, const Vector3d &x) const;
+  Pair best_of_considered(Index node, const Vector3d &x);
   void summarise();
+  void summarise_self_contact();
 
   DetectionOptions options_;
   const Surface &impactor_;
   Target target_;
   std::unique_ptr<Search> search_;
   SearchDistance distance_;
+  std::optional<Exclusions> exclusions_; ///< with roles_: self-contact
+  std::optional<Roles> roles_;
   std::vector<Index> order_; ///< of impactor nodes, such that neighbours mostly follow one another
   Pairing pairing_;
   DetectionReport report_;
@@ -99,7 +112,7 @@ private:
   // Kept for their memory.
   std::vector<Candidate> candidates_; ///< closest face per impactor node; a hint for the next detection
   std::vector<Index> nodes_;          ///< inside the target's grown box
-  std::vector<Candidate> considered_;
+  std::vector<Candidate> considered_, nearer_;
   Query query_;
 };
 
@@ -154,7 +167,9 @@ const Pairing &SurfaceDetector::detect(std::span<const double> impactor_x, std::
     distance_ = search_distance(target_, options_, reach);
     choose_nodes(impactor_x, target_x);
   }
-  query_ = {impactor_x, nodes_, distance_.w, options_.extension};
+  if (exclusions_)
+    exclusions_->move_to(target_x);
+  query_ = {impactor_x, nodes_, distance_.w, options_.extension, exclusions_ ? &*exclusions_ : nullptr};
   {
     const auto time = timers_.measure("fill");
     search_->fill(target_, query_);
@@ -164,6 +179,8 @@ const Pairing &SurfaceDetector::detect(std::span<const double> impactor_x, std::
     const auto time = timers_.measure("projection");
     for (const Index node : nodes_)
       pairing_[node] = pair_of(node);
+    if (roles_)
+      roles_->assign(pairing_, exclusions_->node_normals());
   }
   summarise();
   return pairing_;
@@ -179,7 +196,19 @@ Vector3d SurfaceDetector::impactor_normal(Index node) const
   return normal.normalized();
 }
 
-SurfaceDetector::Verdict SurfaceDetector::judge(const Feature &feature, Index node) const
+// Self-contact: whether the far side of the node's own wall is that near.
+bool SurfaceDetector::own_wall_within(double distance, Index node)
+{
+  Query all = query_;
+  all.exclusions = nullptr;
+  all.extension = distance; // not only minima: at the wall's end there need not be one
+  nearer_.clear();
+  search_->minima(target_, all, node, distance, nearer_);
+  return std::any_of(nearer_.begin(), nearer_.end(),
+                     [&](const Candidate &candidate) { return exclusions_->is_far_side(node, candidate.face); });
+}
+
+SurfaceDetector::Verdict SurfaceDetector::judge(const Feature &feature, Index node)
 {
   if (feature.pair.kind == PairKind::extension)
     if (feature.overhang > options_.extension.value_or(default_extension * feature.extent))
@@ -187,6 +216,9 @@ SurfaceDetector::Verdict SurfaceDetector::judge(const Feature &feature, Index no
   if (feature.inside && feature.pair.distance > on_surface * distance_.w &&
       impactor_normal(node).dot(feature.normal) > same_way)
     return Verdict::behind;
+  // A face seen from inside beyond the node's own wall belongs to what lies on the other side of that.
+  if (exclusions_ && feature.inside && own_wall_within(feature.pair.distance, node))
+    return Verdict::through_own_wall;
   return Verdict::taken;
 }
 
@@ -200,8 +232,10 @@ Pair SurfaceDetector::pair_of(Index node)
     return none;
   }
   const Vector3d x = point_of(query_.x, impactor_.dim, node);
-  const Feature feature = look_at(target_, closest, x);
-  return judge(feature, node) == Verdict::taken ? feature.pair : next_best(node, x);
+  const Feature feature = look_at(target_, closest, x, false, {query_.exclusions, node});
+  // Of all faces the closest point is a minimum; of those that are not hidden it may lie on the rim of the hidden.
+  const bool is_minimum = feature.is_minimum || !query_.exclusions;
+  return is_minimum && judge(feature, node) == Verdict::taken ? feature.pair : next_best(node, x);
 }
 
 // The closest point is not one to pair with: the next local minimum of the distance that is, sought in growing balls.
@@ -223,16 +257,17 @@ Pair SurfaceDetector::next_best(Index node, const Vector3d &x)
 }
 
 // Once a node is seen to have come through a thin body, only points seen from inside count.
-Pair SurfaceDetector::best_of_considered(Index node, const Vector3d &x) const
+Pair SurfaceDetector::best_of_considered(Index node, const Vector3d &x)
 {
   bool came_through = false;
   Pair none;
-  none.reason = NoPairReason::past_end;
+  none.reason = NoPairReason::too_far;
   for (const Candidate &candidate : considered_)
   {
-    const Feature feature = look_at(target_, candidate, x, true);
+    const Feature feature = look_at(target_, candidate, x, true, {query_.exclusions, node});
     if (!feature.is_minimum)
       continue;
+    none.reason = NoPairReason::past_end;
     const Verdict verdict = judge(feature, node);
     came_through = came_through || verdict == Verdict::behind;
     if (verdict == Verdict::taken && (feature.inside || !came_through))
@@ -250,7 +285,8 @@ void SurfaceDetector::summarise()
   report.distance = distance_.w;
   report.distance_face = distance_.face;
   report.seconds = timers_.seconds();
-  std::array<Index, 5> by_kind{}, by_reason{};
+  std::array<Index, 5> by_kind{};
+  std::array<Index, 6> by_reason{};
   for (Index node = 0; node < impactor_.n_nodes(); ++node)
   {
     const Pair &pair = pairing_[node];
@@ -267,16 +303,31 @@ void SurfaceDetector::summarise()
   }
   report.n_pairs = by_reason[0];
   const std::array<const char *, 5> kinds{"none", "face", "edge", "vertex", "extension"};
-  const std::array<const char *, 5> reasons{"paired", "outside_box", "too_far", "behind", "past_end"};
-  for (std::size_t i = 1; i < 5; ++i)
-  {
+  const std::array<const char *, 6> reasons{"paired", "outside_box", "too_far", "behind", "past_end", "target_side"};
+  for (std::size_t i = 1; i < kinds.size(); ++i)
     report.pairs_by_kind[kinds[i]] = by_kind[i];
-    report.unpaired_by_reason[reasons[i]] = by_reason[i];
-  }
+  for (std::size_t i = 1; i < reasons.size(); ++i)
+    if (i < 5 || roles_)
+      report.unpaired_by_reason[reasons[i]] = by_reason[i];
+  if (roles_)
+    summarise_self_contact();
   if (report.deepest_node >= 0)
   {
     const Vector3d x = point_of(query_.x, impactor_.dim, report.deepest_node);
     report.deepest_point = {x.x(), x.y(), x.z()};
+  }
+}
+
+void SurfaceDetector::summarise_self_contact()
+{
+  SelfContactReport &report = report_.self_contact.emplace();
+  report.n_zones = roles_->n_zones();
+  report.n_excluded = static_cast<double>(exclusions_->n_near()) / std::max(impactor_.n_nodes(), 1);
+  for (Index node = 0; node < impactor_.n_nodes(); ++node)
+  {
+    const double distance = exclusions_->self_distance(node);
+    report.least_distance = node == 0 ? distance : std::min(report.least_distance, distance);
+    report.greatest_distance = std::max(report.greatest_distance, distance);
   }
 }
 } // namespace
@@ -284,5 +335,13 @@ void SurfaceDetector::summarise()
 std::unique_ptr<Detector> make_detector(const DetectionOptions &options, const Surface &impactor, const Surface &target)
 {
   return std::make_unique<SurfaceDetector>(options, impactor, target);
+}
+
+std::unique_ptr<Detector> make_self_detector(const DetectionOptions &options, const Surface &surface,
+                                             std::optional<double> self_distance)
+{
+  auto detector = std::make_unique<SurfaceDetector>(options, surface, surface);
+  detector->set_self_contact(self_distance);
+  return detector;
 }
 } // namespace amontons

@@ -5,6 +5,7 @@
 #include "amontons/surface/surface.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace amontons
@@ -28,6 +29,10 @@ namespace amontons
 ///
 /// **Other points.** Where the closest point does not do (past the end, behind), the next local minimum of the distance
 /// that does is taken: past one terrace's end lies the next terrace.
+///
+/// **Self-contact** (make_self_detector). A node does not see the faces that Exclusions names. Of the rest it takes the
+/// closest point that is a local minimum of the distance from the whole surface: the rim of what is hidden is none.
+/// Then Roles decides which nodes keep their face as impactors.
 class Detector
 {
 public:
@@ -48,4 +53,11 @@ public:
 /// The surfaces must outlive the detector; their adjacency must be built.
 std::unique_ptr<Detector> make_detector(const DetectionOptions &options, const Surface &impactor,
                                         const Surface &target);
+
+/// One surface as impactor and target; detect() takes the same coordinates for both.
+/// @param self_distance along the surface, in the reference, within which a node sees no face; absent: twice the
+///        longest edge of the node's faces
+/// @throws UserError if it is negative or not finite
+std::unique_ptr<Detector> make_self_detector(const DetectionOptions &options, const Surface &surface,
+                                             std::optional<double> self_distance = {});
 } // namespace amontons

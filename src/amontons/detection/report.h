@@ -3,10 +3,19 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace amontons
 {
+/// What only self-contact knows.
+struct SelfContactReport
+{
+  Index n_zones = 0;                                ///< of contact, each with its impactor and its target side
+  double n_excluded = 0;                            ///< faces within the self-distance of a node, mean over the nodes
+  double least_distance = 0, greatest_distance = 0; ///< self-distances of the nodes, length
+};
+
 /// What one detection did, for the user.
 struct DetectionReport
 {
@@ -15,11 +24,12 @@ struct DetectionReport
   Index distance_face = -1; ///< face whose size set w; -1 where the user gave it
   Index n_pairs = 0;
   std::map<std::string, Index> pairs_by_kind;      ///< "face", "edge", "vertex", "extension"
-  std::map<std::string, Index> unpaired_by_reason; ///< "outside_box", "too_far", "behind", "past_end"
+  std::map<std::string, Index> unpaired_by_reason; ///< "outside_box", "too_far", "behind", "past_end", "target_side"
   Index n_penetrations = 0;
   double deepest = 0;      ///< least gap, <= 0
   Index deepest_node = -1; ///< local index on the impactor surface
   std::array<double, 3> deepest_point{0, 0, 0};
+  std::optional<SelfContactReport> self_contact;
   std::map<std::string, double> seconds; ///< per step: "bounds", "fill", "nearest", "projection"
 };
 } // namespace amontons

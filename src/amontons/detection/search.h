@@ -20,7 +20,7 @@ struct Query
   std::optional<double> extension;        ///< past the target's ends, where the user gave it
   const Exclusions *exclusions = nullptr; ///< self-contact: the faces that a node does not see; null: it sees all
 
-  [[nodiscard]] bool sees(Index node, Index face) const { return !exclusions || !exclusions->excluded(node, face); }
+  [[nodiscard]] bool sees(Index node, Index face) const { return Sight{exclusions, node}.sees(face); }
 };
 
 /// Finds closest faces: what the detection methods differ in. Buffers stay between calls.

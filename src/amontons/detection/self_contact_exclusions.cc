@@ -83,6 +83,7 @@ private:
 
 Exclusions::Exclusions(const Surface &surface, std::optional<double> self_distance)
   : surface_(surface)
+  , self_distance_(self_distance)
   , x_(surface.reference)
   , size_(surface.node_ids.size(), 0.0)
 {
@@ -100,7 +101,7 @@ Exclusions::Exclusions(const Surface &surface, std::optional<double> self_distan
         size_[node] = std::max(size_[node], length);
     }
   }
-  find_near(self_distance);
+  find_near();
   reference_ = now_ = normals(surface.reference);
 }
 
@@ -109,7 +110,7 @@ double Exclusions::edge_length(Index a, Index b) const
   return (place(surface_, surface_.reference, a) - place(surface_, surface_.reference, b)).norm();
 }
 
-void Exclusions::find_near(std::optional<double> self_distance)
+void Exclusions::find_near()
 {
   const Index n = surface_.n_nodes();
   Distances distances(n);
@@ -119,7 +120,7 @@ void Exclusions::find_near(std::optional<double> self_distance)
   {
     faces.clear();
     // The least more, so that whole multiples of the edges are in.
-    const double bound = (1 + 1e-9) * self_distance.value_or(default_edges * size_[node]);
+    const double bound = (1 + 1e-9) * self_distance(node);
     distances.from(
         surface_, node, bound, [this](Index a, Index b) { return edge_length(a, b); },
         [&](Index reached)
@@ -174,12 +175,12 @@ bool Exclusions::is_own_wall(Index node, Index face) const
     return false;
   const Vector3d now = centre(surface_, x_, face) - place(surface_, x_, node);
   const double depth = now.dot(now_.face[face].cast<double>());
-  if (depth <= 0 || now.dot(now_.node[node].cast<double>()) >= 0)
+  if (depth <= 0)
     return false;
   const std::span<const double> reference = surface_.reference;
   const Vector3d then = centre(surface_, reference, face) - place(surface_, reference, node);
   const double depth_then = then.dot(reference_.face[face].cast<double>());
-  if (depth_then <= touching * size_[node] || then.dot(reference_.node[node].cast<double>()) >= 0)
+  if (depth_then <= touching * size_[node])
     return false;
   return wall_stretch * depth >= depth_then && wall_stretch * wall_stretch * now.squaredNorm() >= then.squaredNorm();
 }

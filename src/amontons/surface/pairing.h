@@ -24,7 +24,8 @@ enum class NoPairReason : unsigned char
   outside_box, ///< outside the target's box grown by w
   too_far,     ///< no target point within w
   behind,      ///< only faces seen from inside their body and facing as the impactor does: no way out within w
-  past_end     ///< past the end of a target that does not extend that far
+  past_end,    ///< past the end of a target that does not extend that far
+  target_side  ///< self-contact: it sees a face, but is itself of the side that serves as target
 };
 
 /// The target seen by one impactor node.
