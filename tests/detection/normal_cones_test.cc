@@ -1,3 +1,4 @@
+#include "amontons/detection/box_tree.h"
 #include "amontons/detection/normal_cones.h"
 
 #include "amontons/detection/closest_feature.h"
@@ -41,7 +42,7 @@ TEST(NormalCones, KeepEveryMinimumAndDropMostOfTheRest)
           continue;
         ++n_minima;
         ASSERT_TRUE(kept) << "face " << f << ", node " << i;
-        for (int level = 0, group = f / 8; level < 3; ++level, group /= 8)
+        for (int level = 0, group = f / BoxTree<3>::width; level < 2; ++level, group /= BoxTree<3>::width)
           ASSERT_TRUE(cones.may_hold_minimum(level, group, x, {})) << "level " << level;
       }
     }

@@ -261,7 +261,8 @@ Pair SurfaceDetector::best_of_considered(Index node, const Vector3d &x)
 {
   bool came_through = false;
   Pair none;
-  none.reason = NoPairReason::too_far;
+  // Without exclusions the closest point of all is a minimum, which the search may have left out for being past an end.
+  none.reason = exclusions_ ? NoPairReason::too_far : NoPairReason::past_end;
   for (const Candidate &candidate : considered_)
   {
     const Feature feature = look_at(target_, candidate, x, true, {query_.exclusions, node});

@@ -1,8 +1,12 @@
 #include "amontons/detection/box_tree.h"
+#include "amontons/detection/near_faces.h"
 #include "amontons/detection/normal_cones.h"
 #include "amontons/detection/search.h"
+#include "amontons/detection/sorted_faces.h"
+#include "amontons/surface/face_batch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace amontons
@@ -11,182 +15,440 @@ namespace
 {
 using Eigen::Vector3d;
 
+/// Nodes are taken in blocks, so that many projections are made at once. Each node is sought within a radius, first
+/// that of a face known to be near or what its predecessors needed: where nothing is found in it, it grows up to w.
 template<int dim>
 class TreeSearch : public Search
 {
 public:
-  void fill(const Target &target, const Query &) override
-  {
-    cones_are_current_ = false;
-    n_looked_at_ = 0;
-    const Surface &surface = target.surface();
-    if (tree_.order().size() != surface.face_ids.size())
-      order(target);
-    pack(target);
-    if (tree_.is_poor())
-    {
-      order(target);
-      pack(target);
-    }
-  }
-
-  void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) override
-  {
-    const auto time = timers.measure("nearest");
-    // Nodes that follow one another are mostly close: they share the way down the tree.
-    for (std::size_t first = 0; first < query.nodes.size(); first += group_size)
-      closest_of_group(target, query, query.nodes.subspan(first, std::min(group_size, query.nodes.size() - first)),
-                       result);
-  }
-
+  void fill(const Target &target, const Query &query) override;
+  void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) override;
   void minima(const Target &target, const Query &query, Index node, double radius,
-              std::vector<Candidate> &result) override
-  {
-    // The cones cost as much as looking at every face once: made where that much has been spent without them.
-    if (!cones_are_current_ && n_looked_at_ > tree_.order().size())
-    {
-      cones_.build(target, tree_.order());
-      cones_are_current_ = true;
-    }
-    const Vector3d x = point_of(query.x, dim, node);
-    const double bound = radius * radius;
-    tree_.visit_within(
-        as_array(x), bound, nullptr,
-        [&](Index slot)
-        {
-          ++n_looked_at_;
-          if (const Candidate candidate = candidate_in(slot, tree_.order()[slot], x);
-              candidate.squared_distance <= bound && query.sees(node, candidate.face))
-            result.push_back(candidate);
-        },
-        [&](int level, std::size_t index)
-        { return !cones_are_current_ || cones_.may_hold_minimum(level, index, x, query.extension); });
-  }
+              std::vector<Candidate> &result) override;
 
 private:
-  static constexpr std::size_t group_size = 16;
+  static constexpr int block_size = FaceBatch::capacity, group_size = 16, max_hits = 48;
+  static constexpr std::uint32_t no_slot = ~0U;
+  // What faces are listed beyond the closest one, in units of its shorter edge.
+  static constexpr double margin = 0.25;
 
-  void closest_of_group(const Target &target, const Query &query, std::span<const Index> nodes,
-                        std::span<Candidate> result)
+  /// A node being sought.
+  struct Sought
   {
-    typename BoxTree<dim>::Box box;
-    std::fill_n(box.begin(), dim, std::numeric_limits<double>::infinity());
-    std::fill_n(box.begin() + dim, dim, -std::numeric_limits<double>::infinity());
-    double largest = 0;
-    for (const Index node : nodes)
-    {
-      const Vector3d x = point_of(query.x, dim, node);
-      for (int c = 0; c < dim; ++c)
-      {
-        box[c] = std::min(box[c], x[c]);
-        box[c + dim] = std::max(box[c + dim], x[c]);
-      }
-      // The face of the last detection bounds the distance.
-      Candidate best{-1, {0, 0}, query.w * query.w};
-      if (result[node].face >= 0)
-        consider(target.surface(), query, node, candidate_on(target, result[node].face, x), best);
-      result[node] = best;
-      largest = std::max(largest, best.squared_distance);
-    }
-    const bool shared = tree_.collect(box, largest, front_);
-    for (const Index node : nodes)
-    {
-      const Vector3d x = point_of(query.x, dim, node);
-      Candidate &best = result[node];
-      const Index known = best.face;
-      tree_.visit_within(
-          as_array(x), best.squared_distance, shared ? &front_ : nullptr,
-          [&](Index slot)
-          {
-            if (const Index f = tree_.order()[slot]; f != known)
-              consider(target.surface(), query, node, candidate_in(slot, f, x), best);
-          },
-          [](int, std::size_t) { return true; });
-    }
-  }
-
-  static std::array<double, dim> as_array(const Vector3d &x)
+    Index node = -1;
+    std::array<double, dim> x;
+    double radius = 0; ///< faces within it have been or are looked at
+    double w = 0;
+    std::uint32_t slot = no_slot; ///< closest so far
+    Index face = -1;
+    LocalPoint xi{0, 0};
+    double squared_distance = 0;
+    int n_hits = 0; ///< in hits_; -1: it has seen all within reach
+    [[nodiscard]] double bound() const { return face < 0 ? w : std::min(w, std::sqrt(squared_distance)); }
+  };
+  struct PendingPair
   {
-    std::array<double, dim> result;
-    for (int c = 0; c < dim; ++c)
-      result[c] = x[c];
-    return result;
-  }
-
-  static void consider(const Surface &surface, const Query &query, Index node, const Candidate &candidate,
-                       Candidate &best)
+    int place; ///< in block_
+    std::uint32_t slot;
+  };
+  struct Batch
   {
-    if (candidate.squared_distance <= best.squared_distance &&
-        (best.face < 0 || comes_before(surface, candidate, best)) && query.sees(node, candidate.face))
-      best = candidate;
-  }
+    FaceBatch faces;
+    std::array<PendingPair, FaceBatch::capacity> pairs;
+  };
 
-  void order(const Target &target)
-  {
-    std::vector<std::array<double, dim>> centres(target.surface().face_ids.size());
-    for (std::size_t f = 0; f < centres.size(); ++f)
-    {
-      const FaceCoordinates face = target.face(static_cast<Index>(f));
-      Vector3d sum = Vector3d::Zero();
-      for (int k = 0; k < face.n_nodes; ++k)
-        sum += face.x[k];
-      centres[f] = as_array(sum / face.n_nodes);
-    }
-    tree_.order_by(centres);
-  }
+  void order(const Target &target);
+  void refit();
+  void verify(const Query &query, std::span<const Index> nodes, std::span<Candidate> result);
+  void seek(const Query &query, std::span<const Index> nodes, std::span<Candidate> result);
+  void start(const Query &query, std::span<const Index> nodes);
+  void find_boxes(const Query &query, std::span<const int> places);
+  void descend(const Query &query, Sought &sought);
+  std::uint32_t likeliest(const Sought &sought, std::span<const BoxHit> hits) const;
+  void finish(const Query &query, int place, Candidate &result);
+  void add(const Query &query, int place, std::uint32_t slot);
+  void project(Batch &batch);
+  void project_all();
+  void consider(Sought &sought, std::uint32_t slot, LocalPoint xi, double squared_distance);
+  [[nodiscard]] double shorter_edge(std::uint32_t slot) const;
+  [[nodiscard]] std::span<BoxHit> hits(int place) { return {hits_.data() + place * max_hits, max_hits}; }
 
-  // Copies the faces' coordinates in the order of the tree, so that faces visited one after another lie so in memory.
-  void pack(const Target &target)
-  {
-    faces_.resize(tree_.order().size());
-    boxes_.resize(faces_.size());
-    for (std::size_t slot = 0; slot < faces_.size(); ++slot)
-    {
-      const FaceCoordinates face = target.face(tree_.order()[slot]);
-      Vector3d low = face.x[0], high = face.x[0];
-      for (int k = 0; k < face.n_nodes; ++k)
-      {
-        faces_[slot][k] = as_array(face.x[k]);
-        low = low.cwiseMin(face.x[k]);
-        high = high.cwiseMax(face.x[k]);
-      }
-      if (dim == 3 && face.n_nodes == 3)
-        faces_[slot][3] = no_node;
-      for (int c = 0; c < dim; ++c)
-      {
-        boxes_[slot][c] = low[c];
-        boxes_[slot][c + dim] = high[c];
-      }
-    }
-    tree_.refit(boxes_);
-  }
-
-  [[nodiscard]] Candidate candidate_in(Index slot, Index f, const Vector3d &x) const
-  {
-    FaceCoordinates face;
-    face.n_nodes = dim == 2 ? 2 : faces_[slot][max_nodes - 1] == no_node ? 3 : 4;
-    for (int k = 0; k < face.n_nodes; ++k)
-      face.x[k] = Vector3d(faces_[slot][k][0], faces_[slot][k][1], dim == 3 ? faces_[slot][k][dim - 1] : 0.0);
-    const ClosestPoint closest = closest_point(face, x);
-    return {f, closest.xi, closest.squared_distance};
-  }
-
-  static constexpr int max_nodes = dim == 2 ? 2 : 4;
-  static constexpr std::array<double, dim> no_node = []
-  {
-    std::array<double, dim> result;
-    result.fill(std::numeric_limits<double>::infinity());
-    return result;
-  }();
-
-  std::vector<std::array<std::array<double, dim>, max_nodes>> faces_; ///< nodes' coordinates, slot by slot
-  std::vector<typename BoxTree<dim>::Box> boxes_;
   BoxTree<dim> tree_;
+  SortedFaces<dim> faces_;
+  NearFaces<dim> near_;
+  const Surface *surface_ = nullptr;
+  double usual_radius_ = 0, usual_margin_ = 0; ///< of the last block
+  // Of the block being sought.
+  std::array<Sought, block_size> block_;
+  std::vector<BoxHit> hits_ = std::vector<BoxHit>(block_size * max_hits);
+  std::array<Batch, 2> batches_{Batch{FaceBatch(dim == 2 ? 2 : 3), {}}, Batch{FaceBatch(4), {}}};
   typename BoxTree<dim>::Front front_;
+  std::vector<Index> unproven_;
+
   NormalCones cones_;
   bool cones_are_current_ = false;
   std::size_t n_looked_at_ = 0; ///< faces, in the search for minima since the last fill
 };
+
+template<int dim>
+void TreeSearch<dim>::fill(const Target &target, const Query &)
+{
+  surface_ = &target.surface();
+  cones_are_current_ = false;
+  n_looked_at_ = 0;
+  if (tree_.order().size() != surface_->face_ids.size())
+    order(target);
+  faces_.move_to(target.coordinates());
+  // The boxes stay as they are while the target has moved little: they are taken for larger by its motion.
+  if (faces_.motion() > 0.1 * tree_.mean_extent())
+    refit();
+  if (tree_.is_poor())
+  {
+    order(target);
+    faces_.move_to(target.coordinates());
+    refit();
+  }
+}
+
+template<int dim>
+void TreeSearch<dim>::order(const Target &target)
+{
+  const auto x = target.coordinates();
+  std::vector<std::array<double, dim>> centres(surface_->face_ids.size());
+  for (std::size_t f = 0; f < centres.size(); ++f)
+  {
+    const auto nodes = surface_->face(static_cast<Index>(f));
+    const double share = 1.0 / static_cast<double>(nodes.size());
+    for (const Index node : nodes)
+      for (int c = 0; c < dim; ++c)
+        centres[f][c] += share * x[static_cast<std::size_t>(node) * dim + c];
+  }
+  tree_.order_by(centres);
+  faces_.number(*surface_, tree_.order());
+  near_ = {};
+}
+
+template<int dim>
+void TreeSearch<dim>::refit()
+{
+  tree_.refit(faces_.box_of_all(), [this](std::size_t slot) { return faces_.box(static_cast<std::uint32_t>(slot)); });
+  faces_.mark();
+  near_.expire();
+}
+
+template<int dim>
+void TreeSearch<dim>::closest(const Target &, const Query &query, std::span<Candidate> result, Timers &timers)
+{
+  const auto time = timers.measure("nearest");
+  near_.resize(result.size());
+  usual_radius_ = query.w;
+  usual_margin_ = 0;
+  unproven_.clear();
+  for (std::size_t first = 0; first < query.nodes.size(); first += block_size)
+    verify(query, query.nodes.subspan(first, std::min<std::size_t>(block_size, query.nodes.size() - first)), result);
+  for (std::size_t first = 0; first < unproven_.size(); first += block_size)
+    seek(query, std::span(unproven_).subspan(first, std::min<std::size_t>(block_size, unproven_.size() - first)),
+         result);
+}
+
+// Takes the closest of the faces known to be near, where that is proven to be the closest of all.
+template<int dim>
+void TreeSearch<dim>::verify(const Query &query, std::span<const Index> nodes, std::span<Candidate> result)
+{
+  start(query, nodes);
+  const int n = static_cast<int>(nodes.size());
+  std::array<double, block_size> motion;
+  for (int place = 0; place < n; ++place)
+  {
+    Sought &sought = block_[place];
+    motion[place] = near_.motion(sought.node, sought.x.data(), faces_.motion());
+    const double clearance = near_.clearance(sought.node, motion[place]);
+    if (near_.faces(sought.node).empty() ? !(clearance > query.w) : clearance < 0)
+      sought.n_hits = -1; // not to be proven
+    else if (!near_.faces(sought.node).empty())
+      add(query, place, static_cast<std::uint32_t>(near_.hint(sought.node)));
+  }
+  project_all();
+  for (int place = 0; place < n; ++place)
+  {
+    Sought &sought = block_[place];
+    const double bound = sought.bound();
+    if (sought.n_hits < 0 || !(bound < near_.clearance(sought.node, motion[place])))
+      sought.n_hits = -1;
+    else
+      for (const auto &[slot, lower] : near_.faces(sought.node))
+        if (slot != sought.slot && lower - motion[place] <= bound)
+          add(query, place, slot);
+  }
+  project_all();
+  for (int place = 0; place < n; ++place)
+  {
+    const Sought &sought = block_[place];
+    if (sought.face >= 0)
+      near_.set_hint(sought.node, sought.slot);
+    if (sought.n_hits < 0)
+      unproven_.push_back(sought.node);
+    else
+      result[sought.node] = {sought.bound() < query.w || sought.squared_distance <= query.w * query.w ? sought.face
+                                                                                                      : -1,
+                             sought.xi, sought.squared_distance};
+  }
+}
+
+template<int dim>
+void TreeSearch<dim>::start(const Query &query, std::span<const Index> nodes)
+{
+  for (std::size_t place = 0; place < nodes.size(); ++place)
+  {
+    Sought &sought = block_[place] = Sought{};
+    sought.node = nodes[place];
+    sought.w = query.w;
+    for (int c = 0; c < dim; ++c)
+      sought.x[c] = query.x[static_cast<std::size_t>(sought.node) * dim + c];
+  }
+}
+
+template<int dim>
+void TreeSearch<dim>::seek(const Query &query, std::span<const Index> nodes, std::span<Candidate> result)
+{
+  start(query, nodes);
+  std::array<int, block_size> pending;
+  int n_pending = static_cast<int>(nodes.size());
+  for (int place = 0; place < n_pending; ++place)
+  {
+    pending[place] = place;
+    if (const std::int64_t hint = near_.hint(nodes[place]); hint >= 0)
+      add(query, place, static_cast<std::uint32_t>(hint));
+  }
+  project_all();
+  for (int place = 0; place < n_pending; ++place)
+    block_[place].radius = block_[place].face < 0 ? std::min(usual_radius_, query.w) : block_[place].bound();
+  double next_radius = 0, next_margin = 0;
+  while (n_pending > 0)
+  {
+    const std::span<const int> places(pending.data(), static_cast<std::size_t>(n_pending));
+    for (std::size_t first = 0; first < places.size(); first += group_size)
+      find_boxes(query, places.subspan(first, std::min<std::size_t>(group_size, places.size() - first)));
+    for (const int place : places)
+      if (const Sought &sought = block_[place]; sought.n_hits > 0 && sought.face < 0)
+        if (const auto slot = likeliest(sought, hits(place)); slot != no_slot)
+          add(query, place, slot);
+    project_all();
+    for (const int place : places)
+    {
+      const Sought &sought = block_[place];
+      const double reach = std::min(sought.bound(), sought.radius) + faces_.motion();
+      const auto bound = static_cast<float>(reach * reach) * (1 + 1e-5F);
+      for (int i = 0; i < sought.n_hits; ++i)
+        if (const BoxHit &hit = hits(place)[i]; hit.squared_distance <= bound && hit.slot != sought.slot)
+          add(query, place, hit.slot);
+    }
+    project_all();
+    int n_left = 0;
+    for (const int place : places)
+    {
+      Sought &sought = block_[place];
+      const double bound = sought.bound();
+      if (sought.n_hits < 0 || bound <= sought.radius)
+      {
+        finish(query, place, result[sought.node]);
+        next_radius = std::max(next_radius, bound);
+        if (sought.face >= 0)
+          next_margin = std::max(next_margin, margin * shorter_edge(sought.slot));
+        continue;
+      }
+      sought.radius = sought.face < 0 ? std::min(4 * sought.radius, query.w) : bound;
+      pending[n_left++] = place;
+    }
+    n_pending = n_left;
+  }
+  usual_radius_ = std::max(1.25 * next_radius, 1e-3 * query.w);
+  usual_margin_ = next_margin;
+}
+
+// The boxes within each node's radius and margin, by way of the leaves within the largest of these.
+template<int dim>
+void TreeSearch<dim>::find_boxes(const Query &query, std::span<const int> places)
+{
+  typename BoxTree<dim>::Box box;
+  std::fill_n(box.begin(), dim, std::numeric_limits<double>::infinity());
+  std::fill_n(box.begin() + dim, dim, -std::numeric_limits<double>::infinity());
+  double largest = 0;
+  for (const int place : places)
+  {
+    const Sought &sought = block_[place];
+    for (int c = 0; c < dim; ++c)
+    {
+      box[c] = std::min(box[c], sought.x[c]);
+      box[c + dim] = std::max(box[c + dim], sought.x[c]);
+    }
+    largest = std::max(largest, sought.radius);
+  }
+  const double margins = usual_margin_ + faces_.motion();
+  if (!tree_.collect(box, (largest + margins) * (largest + margins), front_))
+  {
+    if (places.size() == 1)
+      return descend(query, block_[places[0]]);
+    find_boxes(query, places.first(places.size() / 2));
+    return find_boxes(query, places.subspan(places.size() / 2));
+  }
+  for (const int place : places)
+  {
+    Sought &sought = block_[place];
+    const double reach = sought.radius + margins;
+    sought.n_hits = tree_.scan(front_, sought.x.data(), reach * reach, hits(place));
+    if (sought.n_hits > max_hits)
+      descend(query, sought);
+  }
+}
+
+// One by one, the nearest first: where many faces are within the radius.
+template<int dim>
+void TreeSearch<dim>::descend(const Query &query, Sought &sought)
+{
+  const auto squared_reach = [&] { return (sought.bound() + faces_.motion()) * (sought.bound() + faces_.motion()); };
+  double bound = squared_reach();
+  const Vector3d x = point_of(query.x, dim, sought.node);
+  tree_.visit_within(
+      sought.x.data(), bound,
+      [&](Index slot)
+      {
+        if (!query.sees(sought.node, tree_.order()[slot]))
+          return;
+        const ClosestPoint closest = closest_point(faces_.face(static_cast<std::uint32_t>(slot)), x);
+        consider(sought, static_cast<std::uint32_t>(slot), closest.xi, closest.squared_distance);
+        bound = squared_reach();
+      },
+      [](int, std::size_t) { return true; });
+  sought.n_hits = -1;
+}
+
+// Of a node's boxes the one that probably holds its closest face.
+template<int dim>
+std::uint32_t TreeSearch<dim>::likeliest(const Sought &sought, std::span<const BoxHit> hits) const
+{
+  std::uint32_t result = no_slot;
+  double least = std::numeric_limits<double>::infinity();
+  for (const BoxHit &hit : hits.first(sought.n_hits))
+  {
+    const auto corners = faces_.corners(hit.slot);
+    const int opposite = dim == 2 ? 1 : 2;
+    double score = hit.squared_distance;
+    for (int c = 0; c < dim; ++c)
+    {
+      const double offset = 0.5 * (corners[0][c] + corners[opposite][c]) - sought.x[c];
+      score += 0.1 * offset * offset;
+    }
+    if (score < least)
+    {
+      least = score;
+      result = hit.slot;
+    }
+  }
+  return result;
+}
+
+template<int dim>
+void TreeSearch<dim>::finish(const Query &query, int place, Candidate &result)
+{
+  const Sought &sought = block_[place];
+  const bool found = sought.face >= 0 && sought.squared_distance <= query.w * query.w;
+  result = {found ? sought.face : -1, sought.xi, sought.squared_distance};
+  near_.set_hint(sought.node, sought.face >= 0 ? static_cast<std::int64_t>(sought.slot) : -1);
+  if (sought.n_hits < 0 || query.exclusions)
+    return;
+  const double own_margin = sought.face < 0 ? usual_margin_ : margin * shorter_edge(sought.slot);
+  const double radius = std::min(sought.bound() + own_margin, sought.radius + usual_margin_) + faces_.motion();
+  near_.start(sought.node, sought.x.data(), radius);
+  const auto bound = static_cast<float>(radius * radius);
+  for (const BoxHit &hit : hits(place).first(sought.n_hits))
+    if (hit.squared_distance <= bound)
+      near_.add(hit.slot, hit.squared_distance);
+}
+
+template<int dim>
+void TreeSearch<dim>::add(const Query &query, int place, std::uint32_t slot)
+{
+  if (query.exclusions && !query.sees(block_[place].node, tree_.order()[slot]))
+    return;
+  Batch &batch = batches_[faces_.n_nodes(slot) == 4 ? 1 : 0];
+  batch.pairs[batch.faces.template add<dim>(faces_.corners(slot), block_[place].x.data())] = {place, slot};
+  if (batch.faces.full())
+    project(batch);
+}
+
+template<int dim>
+void TreeSearch<dim>::project(Batch &batch)
+{
+  batch.faces.project();
+  for (int i = 0; i < batch.faces.size(); ++i)
+    consider(block_[batch.pairs[i].place], batch.pairs[i].slot, batch.faces.xi(i), batch.faces.squared_distance(i));
+  batch.faces.clear();
+}
+
+template<int dim>
+void TreeSearch<dim>::project_all()
+{
+  for (Batch &batch : batches_)
+    if (batch.faces.size() > 0)
+      project(batch);
+}
+
+template<int dim>
+void TreeSearch<dim>::consider(Sought &sought, std::uint32_t slot, LocalPoint xi, double squared_distance)
+{
+  const Index face = tree_.order()[slot];
+  if (sought.face >= 0 &&
+      (squared_distance > sought.squared_distance ||
+       (squared_distance == sought.squared_distance && surface_->face_ids[face] >= surface_->face_ids[sought.face])))
+    return;
+  sought.slot = slot;
+  sought.face = face;
+  sought.xi = xi;
+  sought.squared_distance = squared_distance;
+}
+
+template<int dim>
+double TreeSearch<dim>::shorter_edge(std::uint32_t slot) const
+{
+  const auto corners = faces_.corners(slot);
+  const int last = dim == 2 ? 1 : faces_.n_nodes(slot) - 1;
+  double first_edge = 0, last_edge = 0;
+  for (int c = 0; c < dim; ++c)
+  {
+    first_edge += (corners[1][c] - corners[0][c]) * (corners[1][c] - corners[0][c]);
+    last_edge += (corners[last][c] - corners[0][c]) * (corners[last][c] - corners[0][c]);
+  }
+  return std::sqrt(std::min(first_edge, last_edge));
+}
+
+template<int dim>
+void TreeSearch<dim>::minima(const Target &target, const Query &query, Index node, double radius,
+                             std::vector<Candidate> &result)
+{
+  // The cones cost as much as looking at every face once: made where that much has been spent without them.
+  if (!cones_are_current_ && n_looked_at_ > tree_.order().size())
+  {
+    cones_.build(target, tree_.order());
+    cones_are_current_ = true;
+  }
+  const Vector3d x = point_of(query.x, dim, node);
+  const double bound = (radius + faces_.motion()) * (radius + faces_.motion());
+  tree_.visit_within(
+      x.data(), bound,
+      [&](Index slot)
+      {
+        ++n_looked_at_;
+        const Index face = tree_.order()[slot];
+        if (!query.sees(node, face))
+          return;
+        const ClosestPoint closest = closest_point(faces_.face(static_cast<std::uint32_t>(slot)), x);
+        if (closest.squared_distance <= radius * radius)
+          result.push_back({face, closest.xi, closest.squared_distance});
+      },
+      [&](int level, std::size_t index)
+      { return !cones_are_current_ || cones_.may_hold_minimum(level, index, x, query.extension); });
+}
 } // namespace
 
 std::unique_ptr<Search> make_tree_search(int dim)

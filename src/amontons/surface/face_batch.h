@@ -2,6 +2,8 @@
 #include "amontons/surface/face_batch_kernel.h"
 #include "amontons/surface/projection.h"
 
+#include <array>
+
 namespace amontons
 {
 /// Closest points of many faces to as many points, several at a time, with the widest instructions that the
@@ -17,13 +19,13 @@ public:
   {
   }
 
-  /// @param corners of the face, [n_nodes][dim] @param x point, [dim] @return place in the batch
+  /// @param corners of the face, each [dim] @param x point, [dim] @return place in the batch
   template<int dim>
-  int add(const double *corners, const double *x)
+  int add(const std::array<const double *, 4> &corners, const double *x)
   {
     for (int k = 0; k < n_nodes_; ++k)
       for (int c = 0; c < dim; ++c)
-        corners_[k * dim + c][size_] = corners[k * dim + c] - x[c];
+        corners_[k * dim + c][size_] = corners[k][c] - x[c];
     return size_++;
   }
 
