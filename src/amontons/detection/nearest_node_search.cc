@@ -1,8 +1,9 @@
+#include "amontons/detection/node_grid.h"
 #include "amontons/detection/search.h"
+#include "amontons/surface/face_batch.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace amontons
 {
@@ -10,183 +11,160 @@ namespace
 {
 using Eigen::Vector3d;
 
-// The paper's grid: cells of at least 2w about the target's nodes, counted and sorted by cell (THEORY.md section 4,
-// steps 1 to 3; Yastrebov, Cailletaud, Feyel 2011).
+// Node-face pairs whose closest points are found many at a time; the faces of a batch have as many nodes each.
+class PairBatch
+{
+public:
+  PairBatch(const Target &target, int n_nodes)
+    : target_(target)
+    , batch_(n_nodes)
+  {
+  }
+
+  // What is closer than the node's result so far replaces it, in due course.
+  void add(Index node, Index face, const double *x, std::span<Candidate> result)
+  {
+    const Surface &surface = target_.surface();
+    std::array<const double *, 4> corners{};
+    const auto nodes = surface.face(face);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      corners[k] = target_.coordinates().data() + static_cast<std::ptrdiff_t>(nodes[k]) * surface.dim;
+    const int place = surface.dim == 2 ? batch_.add<2>(corners, x) : batch_.add<3>(corners, x);
+    pairs_[place] = {node, face};
+    if (batch_.full())
+      project(result);
+  }
+
+  void project(std::span<Candidate> result)
+  {
+    batch_.project();
+    for (int i = 0; i < batch_.size(); ++i)
+    {
+      const auto [node, face] = pairs_[i];
+      const Candidate candidate{face, batch_.xi(i), batch_.squared_distance(i)};
+      if (result[node].face < 0 || comes_before(target_.surface(), candidate, result[node]))
+        result[node] = candidate;
+    }
+    batch_.clear();
+  }
+
+private:
+  struct NodeAndFace
+  {
+    Index node, face;
+  };
+  const Target &target_;
+  FaceBatch batch_;
+  std::array<NodeAndFace, FaceBatch::capacity> pairs_{};
+};
+
+// The paper's rule (THEORY.md section 4, steps 3 and 4): the closest of the faces attached to the nearest target node.
 class NearestNodeSearch : public Search
 {
 public:
-  void fill(const Target &target, const Query &query) override;
-  void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) override;
+  void fill(const Target &target, const Query &query) override { grid_.fill(target, query.w); }
+
+  void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) override
+  {
+    nearest_.resize(result.size());
+    {
+      const auto time = timers.measure("nearest");
+      for (const Index node : query.nodes)
+        nearest_[node] = nearest(target.surface(), query, node);
+    }
+    const auto time = timers.measure("projection");
+    project(target, query, result);
+  }
+
   void minima(const Target &target, const Query &query, Index node, double radius,
-              std::vector<Candidate> &result) override;
+              std::vector<Candidate> &result) override
+  {
+    if (nearest_[node] < 0)
+      return;
+    const Vector3d x = point_of(query.x, target.surface().dim, node);
+    for (const Index f : target.surface().faces_of_node(nearest_[node]))
+      if (const Candidate candidate = candidate_on(target, f, x);
+          candidate.squared_distance <= radius * radius && query.sees(node, f))
+        result.push_back(candidate);
+  }
 
 private:
-  struct SortedNode
+  // The target node within w, of those with a face that the impactor node sees; equally near ones go by their ids.
+  [[nodiscard]] Index nearest(const Surface &surface, const Query &query, Index node) const
   {
-    Vector3d x;
-    Index node;
-  };
+    const Vector3d x = point_of(query.x, surface.dim, node);
+    if (query.exclusions)
+      return nearest_by_rule(surface, query, node, x);
+    double best = query.w * query.w;
+    const NodeGrid::Node *result = nullptr;
+    bool tied = false;
+    grid_.visit_near(x,
+                     [&](std::span<const NodeGrid::Node> nodes)
+                     {
+                       for (const NodeGrid::Node &other : nodes) // no branch: it could not be foreseen
+                       {
+                         const double squared_distance = (x - other.x).squaredNorm();
+                         const bool nearer = squared_distance < best;
+                         tied |= squared_distance == best;
+                         best = nearer ? squared_distance : best;
+                         result = nearer ? &other : result;
+                       }
+                     });
+    if (tied)
+      return nearest_by_rule(surface, query, node, x);
+    return result ? result->node : -1;
+  }
 
-  void size_cells(const Target &target, const Query &query);
-  [[nodiscard]] double cell_position(const Vector3d &x, int axis) const { return (x[axis] - low_[axis]) / cell_[axis]; }
-  [[nodiscard]] Index cell_of(const Vector3d &x) const;
-  [[nodiscard]] Index nearest(const Query &query, Index node, const Surface &surface) const;
+  [[nodiscard]] Index nearest_by_rule(const Surface &surface, const Query &query, Index node, const Vector3d &x) const
+  {
+    const auto sees_a_face_of = [&](Index other)
+    {
+      const auto faces = surface.faces_of_node(other);
+      return std::any_of(faces.begin(), faces.end(), [&](Index f) { return query.sees(node, f); });
+    };
+    double best = query.w * query.w;
+    Index result = -1;
+    const auto comes_first = [&](double squared_distance, Index other)
+    {
+      return squared_distance < best ||
+             (squared_distance == best && (result < 0 || surface.node_ids[other] < surface.node_ids[result]));
+    };
+    grid_.visit_near(x,
+                     [&](std::span<const NodeGrid::Node> nodes)
+                     {
+                       for (const NodeGrid::Node &other : nodes)
+                         if (const double squared_distance = (x - other.x).squaredNorm();
+                             comes_first(squared_distance, other.node) && sees_a_face_of(other.node))
+                         {
+                           best = squared_distance;
+                           result = other.node;
+                         }
+                     });
+    return result;
+  }
 
-  int dim_ = 2;
-  Vector3d low_, cell_;
-  std::array<Index, 3> n_cells_{1, 1, 1};
-  std::vector<Index> cell_begin_;  ///< [product of n_cells + 1]
-  std::vector<SortedNode> sorted_; ///< target nodes, cell by cell
-  std::vector<Index> cells_, order_, next_;
+  void project(const Target &target, const Query &query, std::span<Candidate> result) const
+  {
+    const Surface &surface = target.surface();
+    PairBatch segments(target, 2), triangles(target, 3), quadrilaterals(target, 4);
+    const std::array<PairBatch *, 5> batches{nullptr, nullptr, &segments, &triangles, &quadrilaterals};
+    for (const Index node : query.nodes)
+    {
+      result[node].face = -1;
+      if (nearest_[node] < 0)
+        continue;
+      const double *x = query.x.data() + static_cast<std::ptrdiff_t>(node) * surface.dim;
+      for (const Index f : surface.faces_of_node(nearest_[node]))
+        if (query.sees(node, f))
+          batches[surface.face(f).size()]->add(node, f, x, result);
+    }
+    for (PairBatch *batch : {&segments, &triangles, &quadrilaterals})
+      batch->project(result);
+  }
+
+  NodeGrid grid_;
   std::vector<Index> nearest_; ///< target node per impactor node
 };
-
-void NearestNodeSearch::size_cells(const Target &target, const Query &query)
-{
-  dim_ = target.surface().dim;
-  Vector3d high = Vector3d::Constant(-INFINITY);
-  low_ = Vector3d::Constant(INFINITY);
-  for (Index i = 0; i < target.surface().n_nodes(); ++i)
-  {
-    low_ = low_.cwiseMin(target.node(i));
-    high = high.cwiseMax(target.node(i));
-  }
-  low_.array() -= query.w;
-  high.array() += query.w;
-  // Never more cells than a few per node: a surface that folds through a large box would leave most of them empty.
-  const double most = 64.0 + 4.0 * (target.surface().n_nodes() + static_cast<double>(query.nodes.size()));
-  double size = 2 * query.w, product = 0;
-  std::array<double, 3> counts{1, 1, 1};
-  while (true)
-  {
-    product = 1;
-    for (int c = 0; c < dim_; ++c)
-    {
-      counts[c] = std::max(std::floor((high[c] - low_[c]) / size), 1.0);
-      product *= counts[c];
-    }
-    if (product <= most)
-      break;
-    size *= 1.26;
-  }
-  for (int c = 0; c < 3; ++c)
-  {
-    n_cells_[c] = static_cast<Index>(counts[c]);
-    cell_[c] = (high[c] - low_[c]) / counts[c];
-  }
-}
-
-Index NearestNodeSearch::cell_of(const Vector3d &x) const
-{
-  Index cell = 0;
-  for (int c = 0; c < dim_; ++c)
-    cell = cell * n_cells_[c] + std::clamp(static_cast<Index>(cell_position(x, c)), 0, n_cells_[c] - 1);
-  return cell;
-}
-
-void NearestNodeSearch::fill(const Target &target, const Query &query)
-{
-  size_cells(target, query);
-  const auto n_cells = static_cast<std::size_t>(n_cells_[0]) * n_cells_[1] * n_cells_[2];
-  const Index n_nodes = target.surface().n_nodes();
-  cell_begin_.assign(n_cells + 1, 0);
-  cells_.resize(n_nodes);
-  sorted_.resize(n_nodes);
-  for (Index i = 0; i < n_nodes; ++i)
-    ++cell_begin_[(cells_[i] = cell_of(target.node(i))) + 1];
-  for (std::size_t cell = 0; cell < n_cells; ++cell)
-    cell_begin_[cell + 1] += cell_begin_[cell];
-  next_.assign(cell_begin_.begin(), cell_begin_.end() - 1);
-  for (Index i = 0; i < n_nodes; ++i)
-    sorted_[next_[cells_[i]]++] = {target.node(i), i};
-
-  // Impactor nodes too, so that those of one cell are treated together.
-  cells_.resize(query.nodes.size());
-  order_.resize(query.nodes.size());
-  next_.assign(n_cells + 1, 0);
-  for (std::size_t i = 0; i < query.nodes.size(); ++i)
-    ++next_[(cells_[i] = cell_of(point_of(query.x, dim_, query.nodes[i]))) + 1];
-  for (std::size_t cell = 0; cell < n_cells; ++cell)
-    next_[cell + 1] += next_[cell];
-  for (std::size_t i = 0; i < query.nodes.size(); ++i)
-    order_[next_[cells_[i]]++] = query.nodes[i];
-}
-
-// Among the node's own cell and those on its side of it: its ball of radius w reaches no others.
-Index NearestNodeSearch::nearest(const Query &query, Index node, const Surface &surface) const
-{
-  const Vector3d x = point_of(query.x, dim_, node);
-  const auto sees_a_face_of = [&](Index other)
-  {
-    const auto faces = surface.faces_of_node(other);
-    return std::any_of(faces.begin(), faces.end(), [&](Index f) { return query.sees(node, f); });
-  };
-  std::array<Index, 3> first{0, 0, 0}, last{0, 0, 0};
-  for (int c = 0; c < dim_; ++c)
-  {
-    const double position = cell_position(x, c);
-    const Index cell = std::clamp(static_cast<Index>(position), 0, n_cells_[c] - 1);
-    const bool lower_half = position - cell < 0.5;
-    first[c] = std::max(lower_half ? cell - 1 : cell, 0);
-    last[c] = std::min(lower_half ? cell : cell + 1, n_cells_[c] - 1);
-  }
-  double best = query.w * query.w;
-  Index result = -1;
-  for (Index i = first[0]; i <= last[0]; ++i)
-    for (Index j = first[1]; j <= last[1]; ++j)
-      for (Index k = first[2]; k <= last[2]; ++k)
-      {
-        const Index cell = dim_ == 2 ? i * n_cells_[1] + j : (i * n_cells_[1] + j) * n_cells_[2] + k;
-        for (Index s = cell_begin_[cell]; s < cell_begin_[cell + 1]; ++s)
-        {
-          const double squared_distance = (x - sorted_[s].x).squaredNorm();
-          if (squared_distance > best)
-            continue;
-          if (result >= 0 && squared_distance == best && surface.node_ids[sorted_[s].node] > surface.node_ids[result])
-            continue;
-          if (query.exclusions && !sees_a_face_of(sorted_[s].node))
-            continue;
-          result = sorted_[s].node;
-          best = squared_distance;
-        }
-      }
-  return result;
-}
-
-void NearestNodeSearch::closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers)
-{
-  const Surface &surface = target.surface();
-  nearest_.resize(result.size());
-  {
-    const auto time = timers.measure("nearest");
-    for (const Index node : order_)
-      nearest_[node] = nearest(query, node, surface);
-  }
-  const auto time = timers.measure("projection");
-  for (const Index node : order_)
-  {
-    result[node].face = -1;
-    if (nearest_[node] < 0)
-      continue;
-    const Vector3d x = point_of(query.x, dim_, node);
-    for (const Index f : surface.faces_of_node(nearest_[node]))
-      if (const Candidate candidate = candidate_on(target, f, x);
-          (result[node].face < 0 || comes_before(surface, candidate, result[node])) && query.sees(node, f))
-        result[node] = candidate;
-  }
-}
-
-void NearestNodeSearch::minima(const Target &target, const Query &query, Index node, double radius,
-                               std::vector<Candidate> &result)
-{
-  if (nearest_[node] < 0)
-    return;
-  const Vector3d x = point_of(query.x, dim_, node);
-  for (const Index f : target.surface().faces_of_node(nearest_[node]))
-    if (const Candidate candidate = candidate_on(target, f, x);
-        candidate.squared_distance <= radius * radius && query.sees(node, f))
-      result.push_back(candidate);
-}
 } // namespace
 
 std::unique_ptr<Search> make_nearest_node_search()
