@@ -1,0 +1,315 @@
+#include "amontons/algebra/condensed_form.h"
+
+#include "amontons/algebra/rigid_modes.h"
+#include "amontons/base/error.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace amontons
+{
+namespace
+{
+double dot(std::span<const double> a, std::span<const double> b)
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+/// A row over the element's positions as a row over the unknowns.
+template<class Row>
+std::vector<Term> over_unknowns(const Layout &layout, const ConstraintPattern &pattern, const Row &row)
+{
+  std::vector<Term> out;
+  for (int a = 0; a < pattern.n_nodal; ++a)
+    if (row[a] != 0)
+      for (const Term &term : layout.terms(pattern.nodal[a]))
+        out.push_back({term.unknown, row[a] * term.coefficient});
+  return out;
+}
+
+bool same(const ConstraintRows &a, const ConstraintRows &b)
+{
+  return a.rows.rows() == b.rows.rows() && a.rows.cols() == b.rows.cols() && a.stiffness.rows() == b.stiffness.rows() &&
+         a.rows == b.rows && a.forces == b.forces && a.stiffness == b.stiffness;
+}
+} // namespace
+
+CondensedForm::CondensedForm(const Layout &layout, std::span<const SubdomainMatrix> subdomains,
+                             std::unique_ptr<LinearSolver> solver, std::vector<double> reference)
+  : layout_(layout)
+  , solver_(std::move(solver))
+  , reference_(std::move(reference))
+  , matrix_(layout, subdomains)
+{
+}
+
+void CondensedForm::set_constraints(std::vector<ConstraintPattern> constraints,
+                                    std::vector<std::vector<Index>> dense_blocks)
+{
+  patterns_ = std::move(constraints);
+  rows_.assign(patterns_.size(), {});
+  augmentation_.assign(patterns_.size(), 0);
+  dense_unknowns_ = std::move(dense_blocks);
+  dense_blocks_.clear();
+  for (const auto &unknowns : dense_unknowns_)
+    dense_blocks_.emplace_back(
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(unknowns.size()), static_cast<Eigen::Index>(unknowns.size())));
+  matrix_.set_constraints(patterns_, rows_, dense_unknowns_, dense_blocks_);
+  prepared_ = false;
+  constraints_changed_ = true;
+}
+
+bool CondensedForm::set_held_modes(std::vector<std::vector<double>> modes)
+{
+  if (modes.empty() && modes_.empty())
+    return false;
+  modes_ = std::move(modes);
+  modes_changed_ = true;
+  return true;
+}
+
+bool CondensedForm::prepare()
+{
+  return !std::exchange(prepared_, true);
+}
+
+void CondensedForm::update_constraint(std::size_t k, const ConstraintValues &values)
+{
+  ConstraintRows rows = reduce_constraint(values);
+  constraints_changed_ |= !same(rows, rows_[k]);
+  rows_[k] = std::move(rows);
+  augmentation_[k] = values.augmentation;
+}
+
+void CondensedForm::update_dense_block(std::size_t k, const Eigen::MatrixXd &values)
+{
+  constraints_changed_ |= values != dense_blocks_[k];
+  dense_blocks_[k] = values;
+}
+
+void CondensedForm::eliminate()
+{
+  bool symmetric = true;
+  const int n = matrix_.blocks().block_size();
+  std::vector<RowGroup> groups(rows_.size());
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+  {
+    symmetric = symmetric && rows_[k].symmetric;
+    for (Eigen::Index r = 0; r < rows_[k].n_rows(); ++r)
+    {
+      groups[k].positions.push_back(over_unknowns(layout_, patterns_[k], rows_[k].rows.row(r)));
+      groups[k].forces.push_back(over_unknowns(layout_, patterns_[k], rows_[k].forces.col(r)));
+    }
+    for (int a = 0; a < std::min(n, patterns_[k].n_nodal); ++a)
+      for (const Term &term : layout_.terms(patterns_[k].nodal[a]))
+        if (!matrix_.blocks().is_shared(term.unknown))
+          groups[k].own.push_back(term.unknown);
+  }
+  elimination_.compute(layout_.n_displacement_unknowns(), groups, symmetric);
+}
+
+/// As many unknowns as there are modes, on which the modes are independent: the largest ones left, one after the other.
+void CondensedForm::place_pins()
+{
+  pins_.clear();
+  std::vector<std::vector<double>> rest;
+  for (const auto &mode : modes_)
+  {
+    rest.push_back(mode);
+    for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
+      if (elimination_.is_slave(i))
+        rest.back()[i] = 0;
+  }
+  for (std::size_t m = 0; m < rest.size(); ++m)
+  {
+    const auto pin =
+        std::max_element(rest[m].begin(), rest[m].end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+        rest[m].begin();
+    if (rest[m][pin] == 0)
+      throw NumericalFailure("the tangent matrix is singular: the motions to be held depend on each other");
+    for (std::size_t k = m + 1; k < rest.size(); ++k)
+    {
+      const double factor = rest[k][pin] / rest[m][pin];
+      for (std::size_t i = 0; i < rest[k].size(); ++i)
+        rest[k][i] -= factor * rest[m][i];
+    }
+    pins_.push_back(matrix_.blocks().row(static_cast<Index>(pin)));
+  }
+  matrix_.set_pins(pins_);
+}
+
+void CondensedForm::set_smooth_modes()
+{
+  auto modes = rigid_modes(layout_, matrix_.blocks(), reference_);
+  for (auto &mode : modes)
+    for (const Index slave : elimination_.slaves())
+      mode[matrix_.blocks().row(slave)] = 0;
+  solver_->set_smooth_modes(std::move(modes));
+}
+
+void CondensedForm::factorize()
+{
+  if (!subdomains_changed_ && !constraints_changed_ && !modes_changed_)
+    return;
+  if (subdomains_changed_ || constraints_changed_)
+    eliminate();
+  if (modes_changed_ || !modes_.empty())
+    place_pins();
+  if (matrix_.update(elimination_, subdomains_changed_))
+    solver_->set_matrix(matrix_.matrix());
+  if (solver_->wants_smooth_modes())
+    set_smooth_modes();
+  subdomains_changed_ = constraints_changed_ = modes_changed_ = true; // should it fail
+  solver_->factorize();
+  subdomains_changed_ = constraints_changed_ = modes_changed_ = false;
+}
+
+/// W^T forces, over the rows of the reduced matrix.
+std::vector<double> CondensedForm::reduced(std::span<const double> forces) const
+{
+  std::vector<double> out(static_cast<std::size_t>(matrix_.blocks().n_rows()), 0.0);
+  for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
+    if (!elimination_.is_slave(i))
+      out[matrix_.blocks().row(i)] = forces[i];
+  for (const Index slave : elimination_.slaves())
+    for (const Term &term : elimination_.weights(slave))
+      out[matrix_.blocks().row(term.unknown)] += term.coefficient * forces[slave];
+  return out;
+}
+
+/// motion += T x
+void CondensedForm::expand(std::span<const double> x, std::span<double> motion) const
+{
+  for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
+    if (!elimination_.is_slave(i))
+      motion[i] += x[matrix_.blocks().row(i)];
+  for (const Index slave : elimination_.slaves())
+    for (const Term &term : elimination_.motion(slave))
+      motion[slave] += term.coefficient * x[matrix_.blocks().row(term.unknown)];
+}
+
+std::vector<double> CondensedForm::solve_reduced(std::span<const double> forces, double tolerance)
+{
+  std::vector<double> x(forces.size());
+  solver_->solve(forces, x, tolerance);
+  return x;
+}
+
+/// [A a; b^T 0] [x; z] = [f; c] with a = W^T m, b = T^T m, c = -m . offset for the modes m; w the pinned motions:
+///     x = X_f + alpha X_P w - X_a z,   w = P^T x,   b^T x = c,   X = (A + alpha P P^T)^-1.
+std::vector<double> CondensedForm::solve_bordered(std::span<const double> forces, std::span<const double> offset,
+                                                  double tolerance)
+{
+  const auto k = static_cast<Eigen::Index>(modes_.size());
+  const double alpha = matrix_.pin_stiffness();
+  std::vector<double> x = solve_reduced(reduced(forces), tolerance);
+  std::vector<std::vector<double>> by_pin, by_mode, b;
+  for (Eigen::Index m = 0; m < k; ++m)
+  {
+    std::vector<double> pinned(x.size(), 0.0), motion(x.size(), 0.0);
+    pinned[pins_[m]] = alpha;
+    by_pin.push_back(solve_reduced(pinned, 0));
+    by_mode.push_back(solve_reduced(reduced(modes_[m]), 0));
+    for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
+      if (!elimination_.is_slave(i))
+        motion[matrix_.blocks().row(i)] += modes_[m][i];
+    for (const Index slave : elimination_.slaves())
+      for (const Term &term : elimination_.motion(slave))
+        motion[matrix_.blocks().row(term.unknown)] += term.coefficient * modes_[m][slave];
+    b.push_back(std::move(motion));
+  }
+  Eigen::MatrixXd small = Eigen::MatrixXd::Zero(2 * k, 2 * k);
+  Eigen::VectorXd right(2 * k);
+  for (Eigen::Index i = 0; i < k; ++i)
+  {
+    for (Eigen::Index j = 0; j < k; ++j)
+    {
+      small(i, j) = (i == j ? 1 : 0) - by_pin[j][pins_[i]];
+      small(i, k + j) = by_mode[j][pins_[i]];
+      small(k + i, j) = dot(b[i], by_pin[j]);
+      small(k + i, k + j) = -dot(b[i], by_mode[j]);
+    }
+    right[i] = x[pins_[i]];
+    right[k + i] = -dot(modes_[i], offset) - dot(b[i], x);
+  }
+  const Eigen::VectorXd solution = small.fullPivLu().solve(right);
+  for (Eigen::Index m = 0; m < k; ++m)
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] += solution[m] * by_pin[m][i] - solution[k + m] * by_mode[m][i];
+  mode_reactions_.assign(solution.data() + k, solution.data() + 2 * k);
+  return x;
+}
+
+void CondensedForm::solve(std::span<const double> rhs, std::span<double> solution, double tolerance)
+{
+  const auto n = static_cast<std::size_t>(layout_.n_displacement_unknowns());
+  std::vector<double> forces(rhs.begin(), rhs.begin() + static_cast<std::ptrdiff_t>(n)), right_side;
+  double size2 = dot(forces, forces);
+  std::vector<Eigen::VectorXd> of_constraint(rows_.size());
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+  {
+    Eigen::VectorXd &rl = of_constraint[k];
+    rl.resize(patterns_[k].n_multipliers);
+    for (int m = 0; m < patterns_[k].n_multipliers; ++m)
+      rl[m] = rhs[layout_.multiplier(patterns_[k].multipliers[m])];
+    size2 += (augmentation_[k] * rl).squaredNorm();
+    const Eigen::VectorXd force = rows_[k].right_side_force * rl, gap = rows_[k].row_right_side * rl;
+    for (int a = 0; a < patterns_[k].n_nodal; ++a)
+      for (const Term &term : layout_.terms(patterns_[k].nodal[a]))
+        forces[term.unknown] -= term.coefficient * force[a];
+    right_side.insert(right_side.end(), gap.data(), gap.data() + gap.size());
+  }
+
+  std::vector<double> offset(n, 0.0), motion(n, 0.0), resisted(n, 0.0);
+  for (const Index slave : elimination_.slaves())
+    for (const Term &term : elimination_.offset(slave))
+      offset[slave] += term.coefficient * right_side[term.unknown];
+  matrix_.multiply_add(offset, resisted);
+  for (std::size_t i = 0; i < n; ++i)
+    resisted[i] = forces[i] - resisted[i];
+  const double absolute = tolerance * std::sqrt(size2);
+  mode_reactions_.clear();
+  const std::vector<double> x =
+      modes_.empty() ? solve_reduced(reduced(resisted), absolute) : solve_bordered(resisted, offset, absolute);
+  motion = offset;
+  expand(x, motion);
+
+  // The slaves' own equilibrium gives the reactions of the rows.
+  std::fill(resisted.begin(), resisted.end(), 0.0);
+  matrix_.multiply_add(motion, resisted);
+  for (std::size_t m = 0; m < modes_.size(); ++m)
+    for (std::size_t i = 0; i < n; ++i)
+      resisted[i] += modes_[m][i] * mode_reactions_[m];
+  std::vector<double> reaction(right_side.size(), 0.0);
+  for (const Index slave : elimination_.slaves())
+    for (const Term &term : elimination_.reactions(slave))
+      reaction[term.unknown] += term.coefficient * (forces[slave] - resisted[slave]);
+
+  std::copy(motion.begin(), motion.end(), solution.begin());
+  Eigen::Index row = 0;
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+  {
+    Eigen::VectorXd du = Eigen::VectorXd::Zero(patterns_[k].n_nodal);
+    for (int a = 0; a < patterns_[k].n_nodal; ++a)
+      for (const Term &term : layout_.terms(patterns_[k].nodal[a]))
+        du[a] += term.coefficient * motion[term.unknown];
+    const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(reaction.data() + row, rows_[k].n_rows());
+    const Eigen::VectorXd step = rows_[k].multiplier_by_row * y + rows_[k].multiplier_by_right_side * of_constraint[k] +
+                                 rows_[k].multiplier_by_position * du;
+    for (int m = 0; m < patterns_[k].n_multipliers; ++m)
+      solution[layout_.multiplier(patterns_[k].multipliers[m])] = step[m];
+    row += rows_[k].n_rows();
+  }
+}
+
+FormCounters CondensedForm::counters() const
+{
+  return {solver_->n_pattern_builds(), solver_->n_factorizations(), solver_->n_preconditioner_setups(),
+          solver_->n_iterations()};
+}
+} // namespace amontons

@@ -1,0 +1,347 @@
+#include "amontons/algebra/condensed_matrix.h"
+
+#include "amontons/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace amontons
+{
+CondensedMatrix::CondensedMatrix(const Layout &layout, std::span<const SubdomainMatrix> subdomains)
+  : layout_(layout)
+  , subdomains_(subdomains)
+  , blocks_(layout, subdomains)
+  , direct_(static_cast<std::size_t>(layout.n_nodal()), -1)
+  , feeding_(static_cast<std::size_t>(layout.n_displacement_unknowns()))
+{
+  matrix_.block_size = blocks_.block_size();
+  for (Index nodal = 0; nodal < layout.n_nodal(); ++nodal)
+    if (const auto terms = layout.terms(nodal); terms.size() == 1 && !blocks_.is_shared(terms[0].unknown))
+      direct_[nodal] = blocks_.row(terms[0].unknown);
+}
+
+void CondensedMatrix::set_constraints(std::span<const ConstraintPattern> patterns,
+                                      std::span<const ConstraintRows> constraints,
+                                      std::span<const std::vector<Index>> dense_unknowns,
+                                      std::span<const Eigen::MatrixXd> dense_blocks)
+{
+  patterns_ = patterns;
+  constraints_ = constraints;
+  dense_unknowns_ = dense_unknowns;
+  dense_blocks_ = dense_blocks;
+  pattern_stands_ = false;
+  constraints_of_node_.assign(static_cast<std::size_t>(blocks_.n_nodes()), {});
+  masters_.assign(static_cast<std::size_t>(blocks_.n_blocks()), {});
+  const int n = blocks_.block_size();
+  for (std::size_t k = 0; k < patterns_.size(); ++k)
+    for (int a = 0; a < patterns_[k].n_nodal; a += n)
+    {
+      auto &of_node = constraints_of_node_[patterns_[k].nodal[a] / n];
+      if (of_node.empty() || of_node.back() != static_cast<Index>(k))
+        of_node.push_back(static_cast<Index>(k));
+      for (const Index slave : blocks_.blocks_of_node(patterns_[k].nodal[0] / n))
+        if (blocks_.nodes_of_block(slave).size() == 1)
+          for (const Index master : blocks_.blocks_of_node(patterns_[k].nodal[a] / n))
+            masters_[slave].push_back(master);
+    }
+  for (auto &masters : masters_)
+  {
+    std::sort(masters.begin(), masters.end());
+    masters.erase(std::unique(masters.begin(), masters.end()), masters.end());
+  }
+}
+
+void CondensedMatrix::set_pins(std::vector<Index> rows)
+{
+  old_pins_.insert(old_pins_.end(), pins_.begin(), pins_.end());
+  pins_ = std::move(rows);
+}
+
+/// Takes note of what slaves follow beyond the nodes of their face. @return whether the pattern is too small
+bool CondensedMatrix::extend_fill(const ConstraintElimination &elimination)
+{
+  bool grown = false;
+  for (const Index slave : elimination.slaves())
+  {
+    auto &masters = masters_[blocks_.block(slave)];
+    for (const auto &terms : {elimination.motion(slave), elimination.weights(slave)})
+      for (const Term &term : terms)
+      {
+        const Index block = blocks_.block(term.unknown);
+        const auto place = std::lower_bound(masters.begin(), masters.end(), block);
+        if (place != masters.end() && *place == block)
+          continue;
+        masters.insert(place, block);
+        grown = true;
+      }
+  }
+  return grown;
+}
+
+void CondensedMatrix::add_column(Index block, std::vector<Index> &columns)
+{
+  if (mark_[block] == stamp_)
+    return;
+  mark_[block] = stamp_;
+  columns.push_back(block);
+}
+
+/// Columns of everything that moves a node or one that shares a cell or a constraint with it.
+void CondensedMatrix::add_neighbours(Index node, std::vector<Index> &columns)
+{
+  const auto add_node = [&](Index other)
+  {
+    for (const Index block : blocks_.blocks_of_node(other))
+    {
+      add_column(block, columns);
+      for (const Index master : masters_[block])
+        add_column(master, columns);
+    }
+  };
+  const int n = blocks_.block_size();
+  for (const auto &[s, local] : blocks_.copies(node))
+  {
+    const SubdomainMatrix &matrix = subdomains_[s];
+    const Index row = local * n;
+    for (Index k = matrix.row_ptr[row]; k < matrix.row_ptr[row + 1]; k += n)
+      add_node(matrix.nodes[matrix.col[k] / n]);
+  }
+  for (const Index k : constraints_of_node_[node])
+    for (int a = 0; a < patterns_[k].n_nodal; a += n)
+      add_node(patterns_[k].nodal[a] / n);
+}
+
+void CondensedMatrix::collect_columns(Index block, std::vector<Index> &columns)
+{
+  ++stamp_;
+  columns.clear();
+  add_column(block, columns);
+  for (const Index node : blocks_.nodes_of_block(block))
+    add_neighbours(node, columns);
+  for (const Index slave : slaves_[block])
+    for (const Index node : blocks_.nodes_of_block(slave))
+      add_neighbours(node, columns);
+  const int n = blocks_.block_size();
+  for (int c = 0; c < n; ++c)
+    if (const Index unknown = blocks_.unknown(block * n + c); unknown >= 0)
+      for (const auto &dense : dense_unknowns_)
+        if (std::find(dense.begin(), dense.end(), unknown) != dense.end())
+          for (const Index other : dense)
+            add_column(blocks_.block(other), columns);
+  std::sort(columns.begin(), columns.end());
+}
+
+void CondensedMatrix::build_pattern()
+{
+  const Index n_blocks = blocks_.n_blocks();
+  const int n = blocks_.block_size();
+  slaves_.assign(static_cast<std::size_t>(n_blocks), {});
+  for (Index slave = 0; slave < n_blocks; ++slave)
+    for (const Index master : masters_[slave])
+      if (master != slave)
+        slaves_[master].push_back(slave);
+  mark_.assign(static_cast<std::size_t>(n_blocks), -1);
+  stamp_ = -1;
+  affected_.clear();
+  matrix_.row_ptr.assign(1, 0);
+  matrix_.col.clear();
+  std::vector<Index> columns;
+  for (Index block = 0; block < n_blocks; ++block)
+  {
+    collect_columns(block, columns);
+    for (int c = 0; c < n; ++c)
+    {
+      for (const Index column : columns)
+        for (int d = 0; d < n; ++d)
+          matrix_.col.push_back(column * n + d);
+      matrix_.row_ptr.push_back(static_cast<Index>(matrix_.col.size()));
+    }
+    // Columns of a slave's neighbours are those of its masters, so these rows are among the affected ones.
+    if (std::any_of(columns.begin(), columns.end(),
+                    [&](Index b) { return !masters_[b].empty() || !slaves_[b].empty(); }))
+      affected_.push_back(block);
+  }
+  matrix_.values.assign(matrix_.col.size(), 0.0);
+  place_.assign(static_cast<std::size_t>(blocks_.n_rows()), -1);
+  pattern_stands_ = true;
+}
+
+void CondensedMatrix::find_mean_diagonal()
+{
+  double sum = 0;
+  Index n = 0;
+  for (const SubdomainMatrix &matrix : subdomains_)
+    for (Index row = 0; row < matrix.n_rows(); ++row)
+    {
+      const auto begin = matrix.col.begin() + matrix.row_ptr[row], end = matrix.col.begin() + matrix.row_ptr[row + 1];
+      sum += std::abs(matrix.values[std::lower_bound(begin, end, row) - matrix.col.begin()]);
+      ++n;
+    }
+  mean_diagonal_ = sum > 0 ? sum / n : 1;
+}
+
+void CondensedMatrix::prepare_columns(const ConstraintElimination &elimination)
+{
+  for (const Index nodal : indirect_)
+    direct_[nodal] = blocks_.row(layout_.terms(nodal)[0].unknown);
+  indirect_.clear();
+  for (const Index unknown : fed_)
+    feeding_[unknown].clear();
+  fed_.clear();
+  for (const Index slave : elimination.slaves())
+  {
+    if (const Index nodal = blocks_.nodal_of_unknown(slave)[0]; direct_[nodal] >= 0)
+    {
+      direct_[nodal] = -1;
+      indirect_.push_back(nodal);
+    }
+    for (const Term &term : elimination.weights(slave))
+    {
+      feeding_[term.unknown].push_back({slave, term.coefficient});
+      fed_.push_back(term.unknown);
+    }
+  }
+}
+
+bool CondensedMatrix::update(const ConstraintElimination &elimination, bool everything)
+{
+  const bool rebuild = extend_fill(elimination) || !pattern_stands_;
+  if (rebuild)
+    build_pattern();
+  if (everything)
+    find_mean_diagonal();
+  prepare_columns(elimination);
+  const int n = blocks_.block_size();
+  if (everything || rebuild)
+    for (Index row = 0; row < blocks_.n_rows(); ++row)
+      make_row(row, elimination);
+  else
+  {
+    for (const Index block : affected_)
+      for (int c = 0; c < n; ++c)
+        make_row(block * n + c, elimination);
+    for (const auto &pins : {old_pins_, pins_})
+      for (const Index row : pins)
+        make_row(row, elimination);
+  }
+  old_pins_.clear();
+  for (const Index row : pins_)
+  {
+    const auto begin = matrix_.col.begin() + matrix_.row_ptr[row], end = matrix_.col.begin() + matrix_.row_ptr[row + 1];
+    matrix_.values[std::lower_bound(begin, end, row) - matrix_.col.begin()] += mean_diagonal_;
+  }
+  return rebuild;
+}
+
+void CondensedMatrix::make_row(Index row, const ConstraintElimination &elimination)
+{
+  const Index begin = matrix_.row_ptr[row], end = matrix_.row_ptr[row + 1];
+  std::fill(matrix_.values.begin() + begin, matrix_.values.begin() + end, 0.0);
+  for (Index k = begin; k < end; ++k)
+    place_[matrix_.col[k]] = k;
+  const Index unknown = blocks_.unknown(row);
+  if (unknown < 0 || elimination.is_slave(unknown))
+    matrix_.values[place_[row]] = mean_diagonal_;
+  else
+  {
+    add_row_of(unknown, 1, elimination);
+    for (const Term &slave : feeding_[unknown])
+      add_row_of(slave.unknown, slave.coefficient, elimination);
+  }
+  for (Index k = begin; k < end; ++k)
+    place_[matrix_.col[k]] = -1;
+}
+
+/// Calls emit(nodal column, value) for what the contacts' stiffness has in the row of a nodal component.
+template<class Emit>
+void CondensedMatrix::visit_contact_row(Index nodal, Emit &&emit) const
+{
+  for (const Index k : constraints_of_node_[nodal / blocks_.block_size()])
+  {
+    const Eigen::MatrixXd &stiffness = constraints_[k].stiffness;
+    if (stiffness.size() == 0)
+      continue;
+    const auto begin = patterns_[k].nodal.begin(), end = begin + patterns_[k].n_nodal;
+    for (auto a = std::find(begin, end, nodal); a != end; a = std::find(a + 1, end, nodal))
+      for (int b = 0; b < patterns_[k].n_nodal; ++b)
+        emit(patterns_[k].nodal[b], stiffness(a - begin, b));
+  }
+}
+
+void CondensedMatrix::add_row_of(Index unknown, double weight, const ConstraintElimination &elimination)
+{
+  const int n = blocks_.block_size();
+  for (const Index nodal : blocks_.nodal_of_unknown(unknown))
+    for (const Term &term : layout_.terms(nodal))
+    {
+      if (term.unknown != unknown)
+        continue;
+      const double factor = weight * term.coefficient;
+      for (const auto &[s, local] : blocks_.copies(nodal / n))
+      {
+        const SubdomainMatrix &matrix = subdomains_[s];
+        const Index row = local * n + nodal % n;
+        for (Index k = matrix.row_ptr[row]; k < matrix.row_ptr[row + 1]; ++k)
+          add_nodal(matrix.nodes[matrix.col[k] / n] * n + matrix.col[k] % n, factor * matrix.values[k], elimination);
+      }
+      visit_contact_row(nodal, [&](Index column, double value) { add_nodal(column, factor * value, elimination); });
+    }
+  for (std::size_t d = 0; d < dense_unknowns_.size(); ++d)
+    for (std::size_t i = 0; i < dense_unknowns_[d].size(); ++i)
+      if (dense_unknowns_[d][i] == unknown)
+        for (std::size_t j = 0; j < dense_unknowns_[d].size(); ++j)
+          add_unknown(dense_unknowns_[d][j],
+                      weight * dense_blocks_[d](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)),
+                      elimination);
+}
+
+/// To the row that is being made.
+void CondensedMatrix::add_at(Index column, double value)
+{
+  AMONTONS_ASSERT(place_[column] >= 0);
+  matrix_.values[place_[column]] += value;
+}
+
+void CondensedMatrix::add_nodal(Index nodal, double value, const ConstraintElimination &elimination)
+{
+  if (const Index column = direct_[nodal]; column >= 0)
+  {
+    add_at(column, value);
+    return;
+  }
+  for (const Term &term : layout_.terms(nodal))
+    add_unknown(term.unknown, value * term.coefficient, elimination);
+}
+
+void CondensedMatrix::add_unknown(Index unknown, double value, const ConstraintElimination &elimination)
+{
+  if (!elimination.is_slave(unknown))
+  {
+    add_at(blocks_.row(unknown), value);
+    return;
+  }
+  for (const Term &term : elimination.motion(unknown))
+    add_at(blocks_.row(term.unknown), value * term.coefficient);
+}
+
+void CondensedMatrix::multiply_add(std::span<const double> motion, std::span<double> forces) const
+{
+  std::vector<double> nodal(direct_.size(), 0.0), nodal_forces(direct_.size(), 0.0);
+  for (Index i = 0; i < layout_.n_nodal(); ++i)
+    for (const Term &term : layout_.terms(i))
+      nodal[i] += term.coefficient * motion[term.unknown];
+  for (const SubdomainMatrix &matrix : subdomains_)
+    amontons::multiply_add(matrix, nodal, nodal_forces);
+  for (std::size_t k = 0; k < patterns_.size(); ++k)
+    if (const Eigen::MatrixXd &stiffness = constraints_[k].stiffness; stiffness.size() > 0)
+      for (int a = 0; a < patterns_[k].n_nodal; ++a)
+        for (int b = 0; b < patterns_[k].n_nodal; ++b)
+          nodal_forces[patterns_[k].nodal[a]] += stiffness(a, b) * nodal[patterns_[k].nodal[b]];
+  layout_.gather(nodal_forces, forces);
+  for (std::size_t d = 0; d < dense_unknowns_.size(); ++d)
+    for (std::size_t i = 0; i < dense_unknowns_[d].size(); ++i)
+      for (std::size_t j = 0; j < dense_unknowns_[d].size(); ++j)
+        forces[dense_unknowns_[d][i]] += dense_blocks_[d](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
+                                         motion[dense_unknowns_[d][j]];
+}
+} // namespace amontons

@@ -1,0 +1,68 @@
+#include "amontons/algebra/node_blocks.h"
+
+#include <algorithm>
+
+namespace amontons
+{
+NodeBlocks::NodeBlocks(const Layout &layout, std::span<const SubdomainMatrix> subdomains)
+{
+  if (!subdomains.empty())
+    size_ = subdomains.front().n_components;
+  std::vector<std::pair<Index, Index>> entries;
+  for (Index nodal = 0; nodal < layout.n_nodal(); ++nodal)
+    for (const Term &term : layout.terms(nodal))
+      entries.emplace_back(term.unknown, nodal);
+  nodal_of_unknown_ = {layout.n_displacement_unknowns(), entries};
+  number_rows(layout);
+
+  entries.clear();
+  const Index n_nodes = layout.n_nodal() / size_;
+  for (Index node = 0; node < n_nodes; ++node)
+  {
+    std::vector<Index> blocks;
+    for (int c = 0; c < size_; ++c)
+      for (const Term &term : layout.terms(node * size_ + c))
+        blocks.push_back(block(term.unknown));
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    for (const Index b : blocks)
+      entries.emplace_back(node, b);
+  }
+  blocks_of_node_ = {n_nodes, entries};
+  for (auto &[node, block] : entries)
+    std::swap(node, block);
+  nodes_of_block_ = {n_blocks(), entries};
+
+  std::vector<std::pair<Index, std::pair<Index, Index>>> copies;
+  for (std::size_t s = 0; s < subdomains.size(); ++s)
+    for (std::size_t local = 0; local < subdomains[s].nodes.size(); ++local)
+      copies.push_back({subdomains[s].nodes[local], {static_cast<Index>(s), static_cast<Index>(local)}});
+  copies_ = {n_nodes, copies};
+}
+
+void NodeBlocks::number_rows(const Layout &layout)
+{
+  row_of_unknown_.assign(static_cast<std::size_t>(layout.n_displacement_unknowns()), -1);
+  for (Index nodal = 0; nodal < layout.n_nodal(); nodal += size_)
+  {
+    const auto first = static_cast<Index>(unknown_of_row_.size());
+    bool any = false;
+    for (int c = 0; c < size_; ++c)
+      if (const auto terms = layout.terms(nodal + c); terms.size() == 1 && !is_shared(terms[0].unknown))
+      {
+        if (!any)
+          unknown_of_row_.resize(static_cast<std::size_t>(first) + size_, -1);
+        any = true;
+        row_of_unknown_[terms[0].unknown] = first + c;
+        unknown_of_row_[first + c] = terms[0].unknown;
+      }
+  }
+  for (Index unknown = 0; unknown < layout.n_displacement_unknowns(); ++unknown)
+    if (row_of_unknown_[unknown] < 0)
+    {
+      row_of_unknown_[unknown] = static_cast<Index>(unknown_of_row_.size());
+      unknown_of_row_.push_back(unknown);
+    }
+  unknown_of_row_.resize((unknown_of_row_.size() + size_ - 1) / size_ * size_, -1);
+}
+} // namespace amontons
