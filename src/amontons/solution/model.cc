@@ -1,5 +1,7 @@
 #include "amontons/solution/model.h"
 
+#include "amontons/solution/form_choice.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +31,8 @@ Model::Model(const ProblemOptions &options)
   rigid_ = std::make_unique<RigidBodies>(mesh_, kinematics, options_.strain, options_.bodies, options_.boundary);
   supports_ =
       std::make_unique<Supports>(mesh_, kinematics, options_.bodies, options_.boundary, *rigid_, options_.loading.end);
-  bodies_ = std::make_unique<BodyAssembly>(mesh_, kinematics, options_.strain, options_.bodies, options_.boundary);
+  bodies_ = std::make_unique<BodyAssembly>(mesh_, kinematics, options_.strain, options_.bodies, options_.boundary,
+                                           make_partition(options_, mesh_));
 
   rigid_of_node_.assign(static_cast<std::size_t>(mesh_.n_nodes() + rigid_->n_extra_nodes()), -1);
   for (std::size_t b = 0; b < rigid_->bodies().size(); ++b)
