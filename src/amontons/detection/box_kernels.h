@@ -38,6 +38,7 @@ struct BoxHit
 {
   std::uint32_t slot;
   float squared_distance;
+  float score; ///< low where the point is near the box's centre, too
 };
 
 template<int dim>
@@ -49,8 +50,9 @@ struct BoxKernels
   /// Boxes of the front's leaves within the bound of x. @return how many; more than `capacity`: not all are in hits
   int (*scan)(const BoxTreeView<dim> &tree, const BoxFront<dim> &front, const float *x, float squared_bound,
               BoxHit *hits, int capacity);
-  /// Positions along the Hilbert curve (hilbert.h) of n cells, n a multiple of 16. @param cells [dim][n]
-  void (*hilbert)(const std::uint32_t *const *cells, int n, int bits, std::uint64_t *positions);
+  /// Positions along the Hilbert curve (hilbert.h) of n cells, n a multiple of 16, `bits` per axis.
+  /// @param cells [dim][n], overwritten
+  void (*hilbert)(std::uint32_t *const *cells, int n, int bits, std::uint64_t *positions);
 };
 
 namespace baseline

@@ -25,8 +25,13 @@ public:
   void resize(std::size_t n_nodes)
   {
     if (nodes_.size() != n_nodes)
+    {
       nodes_.assign(n_nodes, Node{});
+      entries_.reserve(4 * n_nodes);
+    }
   }
+
+  [[nodiscard]] bool knows_faces() const { return !entries_.empty(); }
 
   /// Forgets the faces, of every node but the closest as a hint.
   void expire()

@@ -34,6 +34,23 @@ double triangle_radius2(const Vector3d &x, const Vector3d &y, const Vector3d &z)
   return longer * longer * a / (twice_projection * twice_projection);
 }
 
+// Not less than the covering radius, squared; cheap, and for rectangles right: of a quadrilateral's four quarters each
+// is within reach of its node, as the farthest point of a bilinear patch is one of its corners or nearer; no point of a
+// triangle is farther from all nodes than the longest edge over the root of three.
+double radius2_bound(const FaceCoordinates &face)
+{
+  const auto &x = face.x;
+  if (face.n_nodes == 2)
+    return 0.25 * (x[1] - x[0]).squaredNorm();
+  if (face.n_nodes == 3)
+    return std::max({(x[1] - x[0]).squaredNorm(), (x[2] - x[1]).squaredNorm(), (x[0] - x[2]).squaredNorm()}) / 3;
+  const Vector3d centre = 0.25 * ((x[0] + x[1]) + (x[2] + x[3]));
+  double result = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    result = std::max({result, 0.25 * (x[(k + 1) % 4] - x[k]).squaredNorm(), (centre - x[k]).squaredNorm()});
+  return result;
+}
+
 double quadrilateral_radius(const FaceCoordinates &face)
 {
   const auto &x = face.x;
@@ -66,7 +83,7 @@ double covering_radius(const FaceCoordinates &face)
     return 0.5 * (face.x[1] - face.x[0]).norm();
   if (face.n_nodes == 3)
     return std::sqrt(triangle_radius2(face.x[0], face.x[1], face.x[2]));
-  return quadrilateral_radius(face);
+  return std::min(quadrilateral_radius(face), std::sqrt(radius2_bound(face)));
 }
 
 SearchDistance search_distance(const Target &target, const DetectionOptions &options, double reach)
@@ -78,8 +95,13 @@ SearchDistance search_distance(const Target &target, const DetectionOptions &opt
     return {*options.distance, -1};
   SearchDistance least;
   for (Index f = 0; f < target.surface().n_faces(); ++f)
-    if (const double radius = covering_radius(target.face(f)); radius > least.w || least.face < 0)
+  {
+    const FaceCoordinates face = target.face(f);
+    if (least.face >= 0 && radius2_bound(face) <= least.w * least.w)
+      continue;
+    if (const double radius = covering_radius(face); radius > least.w || least.face < 0)
       least = {radius, f};
+  }
   if (!options.distance)
     return {1.01 * std::hypot(least.w, reach), least.face};
   if (least.face >= 0 && *options.distance < least.w)

@@ -6,7 +6,7 @@ namespace amontons
 {
 /// The least radius at which balls about the face's nodes cover the face: half the length of a segment, the
 /// circumradius of an acute triangle; of a quadrilateral the better of its two triangulations, and what it bulges from
-/// them added.
+/// them added, or the farthest corner of a quarter from its node, if that is less.
 double covering_radius(const FaceCoordinates &face);
 
 /// The detection distance w and the face that sets it.

@@ -44,6 +44,7 @@ public:
       result[k] = x_.data() + static_cast<std::ptrdiff_t>(k < max_nodes_ && nodes[k] >= 0 ? nodes[k] : nodes[0]) * dim;
     return result;
   }
+  void prefetch(std::uint32_t slot) const { __builtin_prefetch(nodes_.data() + std::size_t{slot} * max_nodes_); }
   [[nodiscard]] FaceCoordinates face(std::uint32_t slot) const;
   [[nodiscard]] Box box(std::uint32_t slot) const;
   [[nodiscard]] const Box &box_of_all() const { return all_; }

@@ -3,7 +3,6 @@
 #include "amontons/surface/surface.h"
 
 #include <span>
-#include <vector>
 
 namespace amontons
 {
@@ -26,11 +25,10 @@ public:
   }
 
   /// The face across edge k of face f (in 2D across its end k); -1 where the target ends there.
-  [[nodiscard]] Index neighbour(Index f, int k) const { return neighbours_[surface_->face_offsets[f] + k]; }
+  [[nodiscard]] Index neighbour(Index f, int k) const;
 
 private:
   const Surface *surface_;
   std::span<const double> x_;
-  std::vector<Index> neighbours_; ///< laid out as Surface::face_nodes
 };
 } // namespace amontons

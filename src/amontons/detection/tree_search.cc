@@ -15,6 +15,13 @@ namespace
 {
 using Eigen::Vector3d;
 
+// Of a node's boxes the one that probably holds its closest face.
+std::uint32_t likeliest(std::span<const BoxHit> hits)
+{
+  return std::min_element(hits.begin(), hits.end(), [](const BoxHit &a, const BoxHit &b) { return a.score < b.score; })
+      ->slot;
+}
+
 /// Nodes are taken in blocks, so that many projections are made at once. Each node is sought within a radius, first
 /// that of a face known to be near or what its predecessors needed: where nothing is found in it, it grows up to w.
 template<int dim>
@@ -64,7 +71,6 @@ private:
   void start(const Query &query, std::span<const Index> nodes);
   void find_boxes(const Query &query, std::span<const int> places);
   void descend(const Query &query, Sought &sought);
-  std::uint32_t likeliest(const Sought &sought, std::span<const BoxHit> hits) const;
   void finish(const Query &query, int place, Candidate &result);
   void add(const Query &query, int place, std::uint32_t slot);
   void project(Batch &batch);
@@ -231,8 +237,7 @@ void TreeSearch<dim>::seek(const Query &query, std::span<const Index> nodes, std
       find_boxes(query, places.subspan(first, std::min<std::size_t>(group_size, places.size() - first)));
     for (const int place : places)
       if (const Sought &sought = block_[place]; sought.n_hits > 0 && sought.face < 0)
-        if (const auto slot = likeliest(sought, hits(place)); slot != no_slot)
-          add(query, place, slot);
+        add(query, place, likeliest(hits(place).first(sought.n_hits)));
     project_all();
     for (const int place : places)
     {
@@ -299,6 +304,9 @@ void TreeSearch<dim>::find_boxes(const Query &query, std::span<const int> places
     sought.n_hits = tree_.scan(front_, sought.x.data(), reach * reach, hits(place));
     if (sought.n_hits > max_hits)
       descend(query, sought);
+    else
+      for (int i = 0; i < sought.n_hits; ++i)
+        faces_.prefetch(hits(place)[i].slot);
   }
 }
 
@@ -321,31 +329,6 @@ void TreeSearch<dim>::descend(const Query &query, Sought &sought)
       },
       [](int, std::size_t) { return true; });
   sought.n_hits = -1;
-}
-
-// Of a node's boxes the one that probably holds its closest face.
-template<int dim>
-std::uint32_t TreeSearch<dim>::likeliest(const Sought &sought, std::span<const BoxHit> hits) const
-{
-  std::uint32_t result = no_slot;
-  double least = std::numeric_limits<double>::infinity();
-  for (const BoxHit &hit : hits.first(sought.n_hits))
-  {
-    const auto corners = faces_.corners(hit.slot);
-    const int opposite = dim == 2 ? 1 : 2;
-    double score = hit.squared_distance;
-    for (int c = 0; c < dim; ++c)
-    {
-      const double offset = 0.5 * (corners[0][c] + corners[opposite][c]) - sought.x[c];
-      score += 0.1 * offset * offset;
-    }
-    if (score < least)
-    {
-      least = score;
-      result = hit.slot;
-    }
-  }
-  return result;
 }
 
 template<int dim>
