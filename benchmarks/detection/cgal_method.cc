@@ -78,10 +78,10 @@ double squared_distance(const Eigen::Vector3d &x, const CGAL::Bbox_3 &box)
 }
 
 // CGAL's tree of face boxes, gone through the nearer child first, our projection on the faces.
-class CgalMethod : public LibraryMethod
+class CgalMethod : public PointwiseMethod
 {
 public:
-  using LibraryMethod::LibraryMethod;
+  using PointwiseMethod::PointwiseMethod;
 
 private:
   void build() override

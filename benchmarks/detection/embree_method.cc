@@ -24,11 +24,11 @@ struct Release
 
 // Embree's point query on boxes of faces, our projection on the faces that it calls back with. Its boxes are in single
 // precision: they and the radius are grown by what rounding may take, so that the result is exact.
-class EmbreeMethod : public LibraryMethod
+class EmbreeMethod : public PointwiseMethod
 {
 public:
   explicit EmbreeMethod(const Scene &scene)
-    : LibraryMethod(scene)
+    : PointwiseMethod(scene)
     , device_(rtcNewDevice("threads=1,user_threads=1"))
   {
     if (!device_)

@@ -21,20 +21,11 @@ public:
   Phases detect(const Positions &positions) final
   {
     target_x_ = positions.target;
-    impactor_x_ = positions.impactor;
     Phases phases;
     const double start = processor_time();
     build();
     const double built = processor_time();
-    for (Index node = 0; node < scene_.impactor.n_nodes(); ++node)
-    {
-      const Eigen::Vector3d x = point_of(impactor_x_, dim(), node);
-      Candidate best{-1, {0, 0}, scene_.distance * scene_.distance};
-      if (found_[node].face >= 0) // the face of the last detection bounds the distance
-        look_at(found_[node].face, x, best);
-      query(x, best);
-      found_[node] = best;
-    }
+    query(positions.impactor, found_);
     phases.build = built - start;
     phases.query = processor_time() - built;
     return phases;
@@ -50,8 +41,8 @@ public:
 
 protected:
   virtual void build() = 0;
-  /// @param best on entry a bound
-  virtual void query(const Eigen::Vector3d &x, Candidate &best) = 0;
+  /// @param found on entry what the last detection found
+  virtual void query(std::span<const double> impactor_x, std::span<Candidate> found) = 0;
 
   [[nodiscard]] int dim() const { return scene_.target.dim; }
   [[nodiscard]] const Scene &scene() const { return scene_; }
@@ -69,6 +60,32 @@ protected:
 private:
   const Scene &scene_;
   std::vector<Candidate> found_;
-  std::span<const double> impactor_x_, target_x_;
+  std::span<const double> target_x_;
+};
+
+/// A library that calls back with one face after another, each of which may shrink the bound: projections cannot be put
+/// together.
+class PointwiseMethod : public LibraryMethod
+{
+public:
+  using LibraryMethod::LibraryMethod;
+
+protected:
+  /// @param best on entry a bound
+  virtual void query(const Eigen::Vector3d &x, Candidate &best) = 0;
+
+private:
+  void query(std::span<const double> impactor_x, std::span<Candidate> found) final
+  {
+    for (Index node = 0; node < scene().impactor.n_nodes(); ++node)
+    {
+      const Eigen::Vector3d x = point_of(impactor_x, dim(), node);
+      Candidate best{-1, {0, 0}, scene().distance * scene().distance};
+      if (found[node].face >= 0) // the face of the last detection bounds the distance
+        look_at(found[node].face, x, best);
+      query(x, best);
+      found[node] = best;
+    }
+  }
 };
 } // namespace amontons::benchmark

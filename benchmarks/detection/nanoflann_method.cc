@@ -1,3 +1,4 @@
+#include "amontons/detection/pair_batch.h"
 #include "detection/library_method.h"
 
 #include <nanoflann.hpp>
@@ -72,13 +73,20 @@ private:
     bound_ = scene().distance + 0.5 * std::sqrt(squared_diagonal);
   }
 
-  void query(const Eigen::Vector3d &x, Candidate &best) override
+  void query(std::span<const double> impactor_x, std::span<Candidate> found) override
   {
-    Nearest nearest{bound_ * bound_};
-    tree_->findNeighbors(nearest, x.data(), nanoflann::SearchParams());
-    if (nearest.node >= 0)
-      for (const Index f : target().faces_of_node(static_cast<Index>(nearest.node)))
-        look_at(f, x, best);
+    PairBatch pairs(target(), target_x(), static_cast<int>(target().face(0).size()));
+    for (Index node = 0; node < scene().impactor.n_nodes(); ++node)
+    {
+      const double *x = impactor_x.data() + static_cast<std::ptrdiff_t>(node) * dimension;
+      Nearest nearest{bound_ * bound_};
+      tree_->findNeighbors(nearest, x, nanoflann::SearchParams());
+      found[node] = {};
+      if (nearest.node >= 0)
+        for (const Index f : target().faces_of_node(static_cast<Index>(nearest.node)))
+          pairs.add(node, f, x, found);
+    }
+    pairs.project(found);
   }
 
   Nodes nodes_;

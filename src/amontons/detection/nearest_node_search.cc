@@ -1,6 +1,6 @@
 #include "amontons/detection/node_grid.h"
+#include "amontons/detection/pair_batch.h"
 #include "amontons/detection/search.h"
-#include "amontons/surface/face_batch.h"
 
 #include <algorithm>
 #include <array>
@@ -10,53 +10,6 @@ namespace amontons
 namespace
 {
 using Eigen::Vector3d;
-
-// Node-face pairs whose closest points are found many at a time; the faces of a batch have as many nodes each.
-class PairBatch
-{
-public:
-  PairBatch(const Target &target, int n_nodes)
-    : target_(target)
-    , batch_(n_nodes)
-  {
-  }
-
-  // What is closer than the node's result so far replaces it, in due course.
-  void add(Index node, Index face, const double *x, std::span<Candidate> result)
-  {
-    const Surface &surface = target_.surface();
-    std::array<const double *, 4> corners{};
-    const auto nodes = surface.face(face);
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      corners[k] = target_.coordinates().data() + static_cast<std::ptrdiff_t>(nodes[k]) * surface.dim;
-    const int place = surface.dim == 2 ? batch_.add<2>(corners, x) : batch_.add<3>(corners, x);
-    pairs_[place] = {node, face};
-    if (batch_.full())
-      project(result);
-  }
-
-  void project(std::span<Candidate> result)
-  {
-    batch_.project();
-    for (int i = 0; i < batch_.size(); ++i)
-    {
-      const auto [node, face] = pairs_[i];
-      const Candidate candidate{face, batch_.xi(i), batch_.squared_distance(i)};
-      if (result[node].face < 0 || comes_before(target_.surface(), candidate, result[node]))
-        result[node] = candidate;
-    }
-    batch_.clear();
-  }
-
-private:
-  struct NodeAndFace
-  {
-    Index node, face;
-  };
-  const Target &target_;
-  FaceBatch batch_;
-  std::array<NodeAndFace, FaceBatch::capacity> pairs_{};
-};
 
 // The paper's rule (THEORY.md section 4, steps 3 and 4): the closest of the faces attached to the nearest target node.
 class NearestNodeSearch : public Search
@@ -146,7 +99,8 @@ private:
   void project(const Target &target, const Query &query, std::span<Candidate> result) const
   {
     const Surface &surface = target.surface();
-    PairBatch segments(target, 2), triangles(target, 3), quadrilaterals(target, 4);
+    const std::span<const double> target_x = target.coordinates();
+    PairBatch segments(surface, target_x, 2), triangles(surface, target_x, 3), quadrilaterals(surface, target_x, 4);
     const std::array<PairBatch *, 5> batches{nullptr, nullptr, &segments, &triangles, &quadrilaterals};
     for (const Index node : query.nodes)
     {
