@@ -15,11 +15,11 @@ packages=(
   libdeal.ii-dev libgmsh-dev libmuparser-dev libeigen3-dev
   # deck, command line, records, pictures
   libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev zlib1g-dev
-  # tests and benchmarks
-  libgtest-dev libgmock-dev libbenchmark-dev
+  # tests, and CGAL as an oracle of theirs
+  libgtest-dev libgmock-dev libcgal-dev
 )
 if [ "${1:-}" = --benchmarks ]; then
-  packages+=(libnanoflann-dev libcgal-dev libembree-dev)
+  packages+=(libnanoflann-dev libembree-dev)
 fi
 
 as_root()

@@ -13,6 +13,7 @@ namespace amontons::benchmark
 /// What a detection took, in seconds of processor time.
 struct Phases
 {
+  double setup = 0; ///< topology, once and for all: what does not hang on where the nodes are
   double build = 0, query = 0;
   std::map<std::string, double> steps; ///< where the method tells its own
 };

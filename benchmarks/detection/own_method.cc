@@ -44,9 +44,9 @@ public:
       wall += seconds;
     for (auto &[step, seconds] : phases.steps) // the detector's own clock runs on while others have the processor
       seconds *= whole / wall;
-    phases.build = made - start + phases.steps["bounds"] + phases.steps["fill"];
-    phases.query = made - start + whole - phases.build;
-    phases.steps["setup"] = made - start;
+    phases.setup = made - start;
+    phases.build = phases.steps["bounds"] + phases.steps["fill"];
+    phases.query = whole - phases.build;
     return phases;
   }
 
