@@ -14,6 +14,8 @@ using Eigen::Vector3d;
 // Local coordinates and lengths relative to the face nearer than this are the same: far above the round-off of
 // coordinates, far below anything a mesh resolves.
 constexpr double same = 1e-9;
+// Cosine of the angle between the normals of faces that meet at a sharp edge.
+constexpr double sharp_edge = 0.7;
 
 // One face that meets at the closest point.
 struct AttachedFace
@@ -61,14 +63,6 @@ public:
   Feature look(LocalPoint xi)
   {
     const FeatureOfFace where = feature_at(coordinates_.n_nodes, xi, same);
-    if (where.type == FaceFeature::interior)
-    {
-      feature_.normal = face_normal(coordinates_, xi);
-      feature_.pair.gap = offset_.dot(feature_.normal);
-      feature_.pair.kind = PairKind::face;
-      feature_.inside = feature_.pair.gap < 0;
-      return feature_;
-    }
     if (where.type == FaceFeature::edge)
       look_at_edge(where.index, xi);
     else
@@ -83,6 +77,7 @@ private:
   void look_at_vertex(int k);
   void note_end(const AttachedFace &attached, int k, const Vector3d &inward);
   [[nodiscard]] bool is_minimum_at_vertex(Index node) const;
+  [[nodiscard]] bool counts(Index face) const;
   void take(const AttachedFace &attached);
   void choose(FaceFeature type);
 
@@ -99,6 +94,16 @@ private:
   Vector3d pseudonormal_{0, 0, 0};
   AttachedFace outer_, inner_; ///< best on either side
 };
+
+// In self-contact a node that has come through next to a sharp edge, flush with the side round it, is nearest to that
+// side; but it is turned away, and the node came through the face that it sees.
+bool FeatureView::counts(Index face) const
+{
+  if (!sight_.exclusions || !sight_.exclusions->is_turned_away(sight_.node, face))
+    return true;
+  const LocalPoint middle{0.3, 0.3};
+  return face_normal(target_.face(face), middle).dot(face_normal(coordinates_, middle)) > sharp_edge;
+}
 
 // Direction in the face's tangent plane, across its edge (a, b), into the face.
 Vector3d into_face(const Vector3d &a, const Vector3d &b, const Vector3d &normal)
@@ -160,7 +165,7 @@ void FeatureView::look_at_edge(int k, LocalPoint xi)
     const int n = attached.x.n_nodes;
     const bool forward = (i + 1) % n == j;
     const Vector3d inward = into_face(attached.x.x[forward ? i : j], attached.x.x[forward ? j : i], attached.normal);
-    if (offset_.dot(inward) > same * size_)
+    if (offset_.dot(inward) > same * size_ && counts(f))
       feature_.is_minimum = false;
     if (only_minima_ && !feature_.is_minimum)
       return;
@@ -173,6 +178,8 @@ bool FeatureView::is_minimum_at_vertex(Index node) const
 {
   for (const Index f : target_.surface().faces_of_node(node))
   {
+    if (!counts(f))
+      continue;
     const auto own = target_.surface().face(f);
     const std::size_t n = own.size(), i = position_of(own, node);
     for (const Index other : {own[(i + 1) % n], own[(i + n - 1) % n]})
@@ -231,10 +238,27 @@ void FeatureView::choose(FaceFeature type)
   else
     pair.kind = type == FaceFeature::edge ? PairKind::edge : PairKind::vertex;
 }
+
+// At a point inside a face.
+Feature above_face(const FaceCoordinates &face, const Candidate &candidate, const Vector3d &x)
+{
+  Feature feature;
+  feature.normal = face_normal(face, candidate.xi);
+  feature.pair.face = candidate.face;
+  feature.pair.xi = candidate.xi;
+  feature.pair.distance = std::sqrt(candidate.squared_distance);
+  feature.pair.gap = (x - face_point(face, candidate.xi)).dot(feature.normal);
+  feature.pair.kind = PairKind::face;
+  feature.inside = feature.pair.gap < 0;
+  return feature;
+}
 } // namespace
 
 Feature look_at(const Target &target, const Candidate &candidate, const Vector3d &x, bool only_minima, Sight sight)
 {
+  if (const FaceCoordinates face = target.face(candidate.face);
+      feature_at(face.n_nodes, candidate.xi, same).type == FaceFeature::interior)
+    return above_face(face, candidate, x);
   return FeatureView(target, candidate, x, only_minima, sight).look(candidate.xi);
 }
 } // namespace amontons

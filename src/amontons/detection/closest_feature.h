@@ -21,7 +21,7 @@ struct Feature
   double extent = 0;                  ///< of the face, in that direction
   Eigen::Vector3d normal = {0, 0, 0}; ///< of pair.face at the closest point
   bool inside = false;                ///< the node is seen from inside the body
-  bool is_minimum = true;             ///< no attached face comes closer, to first order
+  bool is_minimum = true; ///< no attached face comes closer, to first order; but see counts() in self-contact
 };
 
 /// Looks at a candidate with all faces that meet at it (THEORY.md section 4, step 4):

@@ -85,11 +85,12 @@ private:
     taken,
     past_end,
     behind,
-    through_own_wall
+    obstructed
   };
 
   void choose_nodes(std::span<const double> impactor_x, std::span<const double> target_x);
   Verdict judge(const Feature &feature, Index node);
+  bool is_obstructed(const Feature &feature, Index node);
   bool own_wall_within(double distance, Index node);
   Vector3d impactor_normal(Index node) const;
   Pair pair_of(Index node);
@@ -208,6 +209,15 @@ bool SurfaceDetector::own_wall_within(double distance, Index node)
                      [&](const Candidate &candidate) { return exclusions_->is_far_side(node, candidate.face); });
 }
 
+// Self-contact: whether something hidden lies between the node and what it sees.
+bool SurfaceDetector::is_obstructed(const Feature &feature, Index node)
+{
+  const Pair &pair = feature.pair;
+  if (!feature.inside)
+    return pair.gap < -on_surface * distance_.w || pair.distance > exclusions_->distance_in_crease(node);
+  return own_wall_within(pair.distance, node);
+}
+
 SurfaceDetector::Verdict SurfaceDetector::judge(const Feature &feature, Index node)
 {
   if (feature.pair.kind == PairKind::extension)
@@ -216,10 +226,7 @@ SurfaceDetector::Verdict SurfaceDetector::judge(const Feature &feature, Index no
   if (feature.inside && feature.pair.distance > on_surface * distance_.w &&
       impactor_normal(node).dot(feature.normal) > same_way)
     return Verdict::behind;
-  // A face seen from inside beyond the node's own wall belongs to what lies on the other side of that.
-  if (exclusions_ && feature.inside && own_wall_within(feature.pair.distance, node))
-    return Verdict::through_own_wall;
-  return Verdict::taken;
+  return exclusions_ && is_obstructed(feature, node) ? Verdict::obstructed : Verdict::taken;
 }
 
 Pair SurfaceDetector::pair_of(Index node)

@@ -168,6 +168,21 @@ bool Exclusions::is_near(Index node, Index face) const
   return std::binary_search(faces.begin(), faces.end(), face);
 }
 
+double Exclusions::distance_in_crease(Index node) const
+{
+  const Vector3d x = place(surface_, x_, node), normal = now_.node[node].cast<double>();
+  double least = INFINITY;
+  for (const Index f : near(node))
+  {
+    if (is_turned_away(node, f))
+      continue;
+    const Vector3d ahead = centre(surface_, x_, f) - x;
+    if (ahead.dot(normal) > 0 && ahead.dot(now_.face[f].cast<double>()) < 0)
+      least = std::min(least, closest_point(gather_face(surface_.dim, surface_.face(f), x_), x).squared_distance);
+  }
+  return std::sqrt(least);
+}
+
 bool Exclusions::is_own_wall(Index node, Index face) const
 {
   if (!surface_.face_bodies.empty() && !surface_.faces_of_node(node).empty() &&

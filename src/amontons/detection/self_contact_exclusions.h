@@ -41,8 +41,14 @@ public:
     return is_turned_away(node, face) || is_near(node, face) || is_own_wall(node, face);
   }
 
+  [[nodiscard]] bool is_turned_away(Index node, Index face) const
+  {
+    return now_.node[node].dot(now_.face[face]) > turned_away;
+  }
   /// Whether the face is within the self-distance of the node.
   [[nodiscard]] bool is_near(Index node, Index face) const;
+  /// Distance to the nearest face within the self-distance that the node faces, as in a crease; infinity without one.
+  [[nodiscard]] double distance_in_crease(Index node) const;
   /// Whether the face is the far side of the node's own wall: not turned away, and no neighbour.
   [[nodiscard]] bool is_far_side(Index node, Index face) const
   {
@@ -65,10 +71,6 @@ private:
     std::vector<Eigen::Vector3f> node, face;
   };
   [[nodiscard]] Normals normals(std::span<const double> x) const;
-  [[nodiscard]] bool is_turned_away(Index node, Index face) const
-  {
-    return now_.node[node].dot(now_.face[face]) > turned_away;
-  }
   [[nodiscard]] bool is_own_wall(Index node, Index face) const;
   [[nodiscard]] double edge_length(Index a, Index b) const;
   void find_near();
