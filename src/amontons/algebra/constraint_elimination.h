@@ -23,12 +23,12 @@ struct RowGroup
 /// Slaves of a constraint are unknowns of its own impactor node where no other constraint touches these; then the
 /// elimination is local. The other constraints (an impactor node that is also a target node, two contacts on a node, an
 /// impactor that supports or a rigid body hold) are resolved together, over all their unknowns, chains substituted. The
-/// slave of a row is the unknown with the largest coefficient and force, so that T and W stay small.
+/// slave of a row is the unknown with the largest coefficient and force, so that T and W stay small. Of rows that
+/// depend on each other the later ones take no slave and carry no force.
 class ConstraintElimination
 {
 public:
   /// @param symmetric F = C^T: then W = T
-  /// @throws NumericalFailure if the rows depend on each other
   void compute(Index n_unknowns, std::span<const RowGroup> groups, bool symmetric);
 
   [[nodiscard]] bool is_slave(Index unknown) const { return position_of_[unknown] >= 0; }

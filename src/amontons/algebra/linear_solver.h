@@ -16,12 +16,12 @@ public:
 
   /// A matrix with a new pattern. It stays the caller's, who may change its values in place and must keep it.
   virtual void set_matrix(const SparseMatrix &matrix) = 0;
-  /// Makes ready for solve() with the present values. @throws NumericalFailure if the matrix is found singular
+  /// Makes ready for solve() with the present values. @throws NumericalFailure
   virtual void factorize() = 0;
   /// @param solution overwritten
   /// @param tolerance an iteration stops where |rhs - A x| is below it (as a force, not a part); a factorisation takes
   ///        no notice
-  /// @throws NumericalFailure if the iteration does not converge
+  /// @throws NumericalFailure if the matrix is singular, or the iteration does not converge
   virtual void solve(std::span<const double> rhs, std::span<double> solution, double tolerance) = 0;
 
   /// Vectors that the matrix, seen locally, makes almost zero: a body's rigid motions. For multigrid.
@@ -34,6 +34,7 @@ public:
   [[nodiscard]] virtual std::int64_t n_iterations() const = 0;
 };
 
-/// Factorisation by MUMPS on the calling process: LDL^T of a symmetric matrix, LU of any other.
+/// Factorisation by MUMPS on the calling process: LDL^T of a symmetric matrix, LU of any other. Of a singular matrix
+/// one solution is found where there are any; where there are none solve() throws.
 std::unique_ptr<LinearSolver> make_direct_solver();
 } // namespace amontons
