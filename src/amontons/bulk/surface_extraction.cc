@@ -1,6 +1,7 @@
 #include "amontons/bulk/surface_extraction.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <unordered_map>
@@ -174,6 +175,28 @@ Surface extract_surface(const Mesh &mesh, const std::string &name, const SourceL
     builder.add_face(facet_nodes(cell, facets[static_cast<std::size_t>(owner.local_facet)]), f);
   }
   return builder.finished();
+}
+
+std::vector<Index> bodies_of_faces(const Mesh &mesh, const Surface &surface)
+{
+  std::vector<Index> parent(static_cast<std::size_t>(mesh.n_nodes()));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root_of = [&parent](Index node)
+  {
+    while (parent[node] != node)
+      node = parent[node] = parent[parent[node]];
+    return node;
+  };
+  for (Index c = 0; c < mesh.cells.size(); ++c)
+    for (const Index node : mesh.cells[c])
+    {
+      const Index a = root_of(mesh.cells[c][0]), b = root_of(node);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  std::vector<Index> bodies;
+  for (Index f = 0; f < surface.n_faces(); ++f)
+    bodies.push_back(root_of(static_cast<Index>(surface.node_ids[surface.face(f)[0]])));
+  return bodies;
 }
 
 void check_not_welded(const Mesh &mesh, const Surface &impactor, const Surface &target,

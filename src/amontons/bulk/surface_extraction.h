@@ -21,6 +21,10 @@ std::span<const std::array<int, 4>> facets_of(CellShape shape);
 /// come first.
 std::vector<FacetOwner> facet_owners(const Mesh &mesh, const Group &group);
 
+/// Which body each face of a surface bounds: parts of the mesh whose cells have common nodes are one body, named by its
+/// smallest node. [n_faces] @param surface as from extract_surface()
+std::vector<Index> bodies_of_faces(const Mesh &mesh, const Surface &surface);
+
 /// Bodies must meet by contact, not by common nodes.
 /// @param impactor, target as from extract_surface(), named in the message
 /// @throws UserError where they share a node

@@ -1,6 +1,7 @@
 #pragma once
 #include "amontons/base/error.h"
 
+#include <optional>
 #include <string>
 
 namespace amontons
@@ -22,13 +23,18 @@ enum class TargetNormals
 struct ContactOptions
 {
   std::string name;
-  std::string impactor;            ///< physical group of faces
-  std::string target;              ///< physical group of faces, or the name of an analytic rigid body
-  double friction_coefficient = 0; ///< Coulomb's mu, >= 0
-  bool tied = false;               ///< the sides are held together as they are at the start, whatever the forces
+  std::string impactor; ///< physical group of faces
+  std::string target;   ///< physical group of faces, or the name of an analytic rigid body; the impactor's
+                        ///< again: self-contact, that surface is both sides
+  std::optional<double> self_distance; ///< self-contact: length along the surface within which it does not touch
+                                       ///< itself; absent: twice the local edges
+  double friction_coefficient = 0;     ///< Coulomb's mu, >= 0
+  bool tied = false;                   ///< the sides are held together as they are at the start, whatever the forces
   InitialOverlap initial_overlap = InitialOverlap::resolve;
   TargetNormals normals = TargetNormals::faceted;
   double augmentation = 1; ///< factor on the automatic r, > 0; the converged result does not depend on it
   SourceLocation where;
+
+  [[nodiscard]] bool is_self_contact() const { return impactor == target; }
 };
 } // namespace amontons

@@ -34,6 +34,25 @@ Section<FrictionOptions> friction_keys()
       });
   return keys;
 }
+
+/// Either both sides or the one surface that is both.
+void check_sides(const Value &value, const ContactOptions &contact)
+{
+  const Value *impactor = value.find("impactor"), *target = value.find("target"), *surface = value.find("surface");
+  if (surface && (impactor || target))
+    (impactor ? impactor : target)->fail("has no meaning with 'surface', which is both sides of its own contact");
+  if (!surface && !(impactor && target))
+    value.fail(std::string("the key '") + (impactor ? "target" : "impactor") +
+               "' is missing (a contact has impactor and target, or, where a surface touches itself, 'surface')");
+  if (!surface && contact.impactor == contact.target)
+    target->fail("the impactor and the target are the same, '" + contact.target +
+                 "'; a contact pair has two sides. Where a surface touches itself, write 'surface: " + contact.target +
+                 "' instead of both");
+  if (const Value *distance = value.find("self-distance"); distance && !surface)
+    distance->fail("has a meaning with 'surface' only, where a surface touches itself");
+  if (const Value *tied = value.find("tied"); tied && contact.tied && surface)
+    tied->fail("has no meaning where a surface touches itself");
+}
 } // namespace
 
 Section<ContactOptions> contact_keys()
@@ -41,10 +60,19 @@ Section<ContactOptions> contact_keys()
   Section<ContactOptions> keys;
   keys.text("name", &ContactOptions::name, required,
             "names the outputs of this contact; unique; letters, digits, '-', '_' and '.'");
-  keys.text("impactor", &ContactOptions::impactor, required,
+  const Need side = otherwise("required without surface");
+  keys.text("impactor", &ContactOptions::impactor, side,
             "physical group of faces whose nodes are kept from crossing the target");
-  keys.text("target", &ContactOptions::target, required,
-            "physical group of faces, or the name of an analytic rigid body");
+  keys.text("target", &ContactOptions::target, side, "physical group of faces, or the name of an analytic rigid body");
+  keys.key(Section<ContactOptions>::row(
+      "surface", "text", "", "", otherwise("none: impactor and target"), "",
+      "self-contact: physical group of faces that may touch each other, instead of impactor and target; which of them "
+      "are which is found as they meet. It may bound several bodies",
+      [](const Value &value, ContactOptions &contact, ReadContext &)
+      { contact.impactor = contact.target = to_text(value); }));
+  keys.number("self-distance", &ContactOptions::self_distance, not_negative, "length",
+              otherwise("twice the longest edge of the node's own faces"),
+              "with surface: within this distance along the undeformed surface a node touches no face");
   keys.map<FrictionOptions>(
       "friction", friction_keys(), otherwise("none: the surfaces slide freely"), "what the surfaces do when they slide",
       [](ContactOptions &contact, FrictionOptions friction) { contact.friction_coefficient = friction.coefficient; });
@@ -72,9 +100,7 @@ Section<ContactOptions> contact_keys()
           friction->fail("has no meaning with tied: true");
         if (const Value *overlap = value.find("initial-overlap"); overlap && contact.tied)
           overlap->fail("has no meaning with tied: true, which keeps the initial gap");
-        if (contact.impactor == contact.target)
-          value.find("target")->fail("the impactor and the target are the same, '" + contact.target +
-                                     "'; a contact pair has two sides");
+        check_sides(value, contact);
       });
   return keys;
 }

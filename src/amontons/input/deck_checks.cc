@@ -68,14 +68,18 @@ void check_contacts(const Value &root, const Deck &deck)
     const ContactOptions &contact = deck.contact[i];
     const Value &entry = item(root, "contact", i);
     check_name(*entry.find("name"));
+    const Value &side = *(contact.is_self_contact() ? entry.find("surface") : entry.find("target"));
+    if (contact.is_self_contact() && analytic_body(deck, contact.impactor))
+      side.fail("'" + contact.impactor +
+                "' is an analytic body, which cannot touch itself; make it the target of a pair");
     if (analytic_body(deck, contact.impactor))
       entry.find("impactor")
           ->fail("'" + contact.impactor + "' is an analytic body, which has no nodes; make it the target");
     const auto sides = std::minmax(contact.impactor, contact.target);
     const auto [other, is_new] = pairs.emplace(sides, contact.name);
     if (!is_new)
-      entry.find("target")->fail("'" + contact.impactor + "' and '" + contact.target + "' are already a pair, in '" +
-                                 other->second + "'");
+      side.fail("'" + contact.impactor + "' and '" + contact.target + "' are already a pair, in '" + other->second +
+                "'");
   }
 }
 } // namespace

@@ -110,7 +110,7 @@ private:
   bool axisymmetric_;
   bool small_;
   ContactOptions options_;
-  std::unique_ptr<Surface> impactor_, target_;
+  std::shared_ptr<const Surface> impactor_, target_; ///< in self-contact the same
   std::optional<Shape> analytic_;
   Index shape_node_ = -1;
   std::vector<double> areas_, augmentation_;

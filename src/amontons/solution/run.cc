@@ -82,7 +82,8 @@ std::vector<std::string> initial_warnings(const Model &model)
   for (const ContactInterface &contact : model.contacts())
   {
     const DetectionReport report = contact.detection_report();
-    if (report.n_pairs == 0)
+    const bool may_meet_later = contact.options().is_self_contact() && !model.small_strain();
+    if (report.n_pairs == 0 && !may_meet_later)
       out.push_back("contact '" + contact.options().name + "': no node of the impactor finds the target");
     if (!contact.target() || report.deepest_node < 0 || contact.options().tied)
       continue;
