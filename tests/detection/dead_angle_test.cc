@@ -1,7 +1,7 @@
 // The table of dead angles (THEORY.md section 4, step 4): what is returned where no face, or more than one, holds the
 // node's projection. Every case is run with all three methods, with the faces' ids in both orders where they tie.
 #include "amontons/detection/detector.h"
-#include "surface/surfaces.h"
+#include "detection/dead_angles.h"
 
 #include <gtest/gtest.h>
 
@@ -57,25 +57,9 @@ struct Table
 
 const double root_half = std::sqrt(0.5);
 
-// Faces: 0 from (-1, -1) up to the ridge at the origin, 1 down to (1, -1); the body is below.
-Table roof()
-{
-  return {chain({{1, -1}, {0, 0}, {-1, -1}})};
-}
-// The body is below; the valley's bottom is the origin.
-Table valley()
-{
-  return {chain({{1, 1}, {0, 0}, {-1, 1}})};
-}
-// One straight line, the body below, from x = 2 to x = 0.
-Table line()
-{
-  return {chain({{2, 0}, {1, 0}, {0, 0}})};
-}
-
 TEST(DeadAngles2d, ConvexVertex)
 {
-  const Table table = roof();
+  const Table table{roof()};
   // Straight above both faces are equally far: the smaller id. More to the right: the right face.
   table.expect({0, 0.5}, {PairKind::vertex, {}, 0.5 * root_half, 0.5, 0});
   table.expect({0.1, 0.5}, {PairKind::vertex, {}, 0.6 * root_half, std::hypot(0.1, 0.5), 0});
@@ -86,7 +70,7 @@ TEST(DeadAngles2d, ConvexVertex)
 
 TEST(DeadAngles2d, ConcaveVertex)
 {
-  const Table table = valley();
+  const Table table{valley()};
   table.expect({0.1, 0.5}, {PairKind::face, {}, 0.4 * root_half, 0.4 * root_half, 0}); // the nearer of two
   table.expect({-0.1, 0.5}, {PairKind::face, {}, 0.4 * root_half, 0.4 * root_half, 1});
   table.expect({0, 0.5}, {PairKind::face, {}, 0.5 * root_half, 0.5 * root_half, 0});
@@ -96,7 +80,7 @@ TEST(DeadAngles2d, ConcaveVertex)
 
 TEST(DeadAngles2d, EndOfTheTarget)
 {
-  Table table = line(); // default extension: 0.1 of the last face
+  Table table{line()}; // default extension: 0.1 of the last face
   table.expect({-0.05, 0.3}, {PairKind::extension, {}, 0.3, std::hypot(0.05, 0.3), 1});
   table.expect({-0.05, -0.3}, {PairKind::extension, {}, -0.3, std::hypot(0.05, 0.3), 1});
   table.expect({2.05, 0.3}, {PairKind::extension, {}, 0.3, std::hypot(0.05, 0.3), 0});
@@ -133,26 +117,16 @@ TEST(DeadAngles2d, AnotherFaceBeyondAnEnd)
 
 TEST(DeadAngles2d, NodeOnASharedVertex)
 {
-  line().expect({1, 0}, {PairKind::face, {}, 0, 0, 0});
-  line().expect({1 + 1e-15, 1e-15}, {PairKind::face, {}, 0, 0, 0});
-}
-
-// Two by two faces, bent along x = 0 (by `slope` on either side) and, with `both`, along y = 0 too.
-Table bent(double slope, bool both, bool triangles)
-{
-  return {sheet(2, 2, triangles,
-                [=](double s, double t)
-                {
-                  const double x = 2 * s - 1, y = 2 * t - 1;
-                  return Point{x, y, -slope * (std::abs(x) + (both ? std::abs(y) : 0))};
-                })};
+  const Table table{line()};
+  table.expect({1, 0}, {PairKind::face, {}, 0, 0, 0});
+  table.expect({1 + 1e-15, 1e-15}, {PairKind::face, {}, 0, 0, 0});
 }
 
 TEST(DeadAngles3d, ConvexEdge)
 {
   for (const bool triangles : {false, true})
   {
-    const Table table = bent(1, false, triangles);
+    const Table table{bent(1, false, triangles)};
     table.expect({0.1, 0.55, 0.5}, {PairKind::edge, {}, 0.6 * root_half, std::hypot(0.1, 0.5)});
     table.expect({0, 0.55, 0}, {PairKind::face, {}, 0, 0});
     table.expect({0.3, 0.6, -0.1}, {PairKind::face, {}, 0.2 * root_half, 0.2 * root_half});
@@ -163,7 +137,7 @@ TEST(DeadAngles3d, ConcaveEdge)
 {
   for (const bool triangles : {false, true})
   {
-    const Table table = bent(-1, false, triangles);
+    const Table table{bent(-1, false, triangles)};
     table.expect({0.1, 0.55, 0.5}, {PairKind::face, {}, 0.4 * root_half, 0.4 * root_half});
     table.expect({0.1, 0.55, -0.4}, {PairKind::edge, {}, -0.3 * root_half, std::hypot(0.1, 0.4)});
   }
@@ -171,26 +145,9 @@ TEST(DeadAngles3d, ConcaveEdge)
 
 TEST(DeadAngles3d, ConvexVertex)
 {
-  // The corner of a cube seen along its diagonal, in quadrilaterals and in triangles.
-  const Point o{0, 0, 0}, x{-1, 0, 0}, y{0, -1, 0}, z{0, 0, -1};
-  const auto sum = [](const Point &a, const Point &b) { return Point{a[0] + b[0], a[1] + b[1], a[2] + b[2]}; };
-  Surface cube;
-  cube.dim = 3;
-  for (const Point &p : {o, x, y, z, sum(x, y), sum(y, z), sum(z, x)})
-    cube.reference.insert(cube.reference.end(), p.begin(), p.end());
-  cube.node_ids = {0, 1, 2, 3, 4, 5, 6};
-  Surface triangles = cube;
-  cube.face_nodes = {0, 1, 4, 2, 0, 2, 5, 3, 0, 3, 6, 1};
-  cube.face_offsets = {0, 4, 8, 12};
-  cube.face_ids = {0, 1, 2};
-  cube.build_adjacency();
-  triangles.face_nodes = {0, 1, 4, 0, 4, 2, 0, 2, 5, 0, 5, 3, 0, 3, 6, 0, 6, 1};
-  triangles.face_offsets = {0, 3, 6, 9, 12, 15, 18};
-  triangles.face_ids = {0, 1, 2, 3, 4, 5};
-  triangles.build_adjacency();
   for (const bool triangular : {false, true})
   {
-    const Table table{triangular ? triangles : cube};
+    const Table table{cube_corner(triangular)};
     const double d = std::sqrt(0.04 + 0.01 + 0.01);
     table.expect({0.1, 0.1, 0.2}, {PairKind::vertex, {}, 0.2, d, 0}); // the face seen most from above
     table.expect({0.2, 0.1, 0.1}, {PairKind::vertex, {}, 0.2, d, triangular ? 2 : 1});
@@ -205,7 +162,7 @@ TEST(DeadAngles3d, ConcaveVertex)
   // Above the bottom of a hollow pyramid the nearest flank; below it, inside, the bottom itself.
   for (const bool triangles : {false, true})
   {
-    const Table table = bent(-1, true, triangles);
+    const Table table{bent(-1, true, triangles)};
     const Surface impactor = cloud(3, {0.01, 0.02, -0.3});
     DetectionOptions options;
     const auto detector = make_detector(options, impactor, table.target);
