@@ -20,6 +20,15 @@ std::string counts_text(const std::map<std::string, Index> &counts)
   std::replace(text.begin(), text.end(), '_', ' ');
   return text;
 }
+
+std::string self_contact_text(const SelfContactReport &self)
+{
+  const std::string distance = self.least_distance == self.greatest_distance
+                                   ? fmt::format("{:.6g}", self.least_distance)
+                                   : fmt::format("{:.6g} to {:.6g}", self.least_distance, self.greatest_distance);
+  return fmt::format("  self-contact in {} zones; self-distance {}: each node leaves out {:.3g} faces\n", self.n_zones,
+                     distance, self.n_excluded);
+}
 } // namespace
 
 std::string detection_text(const ContactCheck &contact)
@@ -34,6 +43,8 @@ std::string detection_text(const ContactCheck &contact)
   text += fmt::format("  {} nodes with a face: {}\n", report.n_pairs, counts_text(report.pairs_by_kind));
   if (n_unpaired > 0)
     text += fmt::format("  {} nodes without: {}\n", n_unpaired, counts_text(report.unpaired_by_reason));
+  if (report.self_contact)
+    text += self_contact_text(*report.self_contact);
   if (report.n_penetrations > 0)
     text += fmt::format("  {} nodes inside the target, the deepest by {:.6g} at ({:.6g})\n", report.n_penetrations,
                         -report.deepest, fmt::join(report.deepest_point, ", "));
@@ -62,6 +73,11 @@ std::string detection_json(const std::vector<ContactCheck> &contacts)
                     {"deepest_node", report.deepest_node},
                     {"deepest_point", report.deepest_point},
                     {"seconds", report.seconds}});
+    if (const auto &self = report.self_contact)
+      list.back()["self_contact"] = {{"n_zones", self->n_zones},
+                                     {"n_excluded_mean", self->n_excluded},
+                                     {"least_self_distance", self->least_distance},
+                                     {"greatest_self_distance", self->greatest_distance}};
   }
   return list.dump(2);
 }

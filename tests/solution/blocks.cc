@@ -1,5 +1,6 @@
 #include "blocks.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace amontons::test
@@ -105,6 +106,26 @@ void Blocks::add_line(const std::string &name, const std::vector<Point> &points,
       mesh_.elements.push_back({line, group, {last, next}});
       last = next;
     }
+}
+
+void Blocks::add_union(const std::string &name, const std::vector<std::string> &groups,
+                       const std::function<bool(const Point &middle)> &take)
+{
+  const int group = add_group(dim_ - 1, name);
+  const std::size_t n_elements = mesh_.elements.size();
+  for (std::size_t e = 0; e < n_elements; ++e)
+  {
+    HandMesh::Element element = mesh_.elements[e];
+    Point middle = Point::Zero();
+    for (const int node : element.nodes)
+      middle += points_[static_cast<std::size_t>(node) - 1] / static_cast<double>(element.nodes.size());
+    if (std::find(groups.begin(), groups.end(), mesh_.groups[static_cast<std::size_t>(element.group) - 1].second) ==
+            groups.end() ||
+        !take(middle))
+      continue;
+    element.group = group;
+    mesh_.elements.push_back(element);
+  }
 }
 
 void Blocks::add_sheet(const std::string &name, const Point &corner, const Point &first, const Point &second,

@@ -30,6 +30,11 @@ public:
   void add_sheet(const std::string &name, const Point &corner, const Point &first, const Point &second,
                  std::array<int, 2> n);
 
+  /// A group of facets that other groups hold: of each those that `take` says by their mean place.
+  void add_union(
+      const std::string &name, const std::vector<std::string> &groups,
+      const std::function<bool(const Point &middle)> &take = [](const Point &) { return true; });
+
   /// Group of the one node nearest to a place.
   void add_point(const std::string &name, const Point &place);
 

@@ -27,7 +27,7 @@ FacetKey facet_key(std::span<const Index> nodes)
 {
   FacetKey key{-1, -1, -1, -1};
   std::copy(nodes.begin(), nodes.end(), key.begin());
-  std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(nodes.size()));
+  std::sort(key.begin(), key.end());
   return key;
 }
 
