@@ -37,7 +37,7 @@ public:
   /// Whether faces that follow one another have drifted apart since they were ordered, so that a new order pays.
   [[nodiscard]] bool is_poor() const { return extent_ > 1.5 * ordered_extent_; }
 
-  /// Of a face's box, over all axes.
+  /// Of the faces' boxes, over all axes: the harmonic mean, so that small ones count.
   [[nodiscard]] double mean_extent() const { return mean_extent_; }
 
   /// Collects the leaves that come within the bound of a box. @return false if they are too many for a front

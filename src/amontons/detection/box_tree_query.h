@@ -11,18 +11,21 @@ void BoxTree<dim>::refit(const Box &all, BoxOf &&box_of)
     return;
   const float slack = centre_on(all);
   clear_incomplete();
-  mean_extent_ = 0;
+  double inverse_extents = 0;
   for (std::size_t slot = 0; slot < order_.size(); ++slot)
   {
     const Box box = box_of(slot);
     BoxNode<dim> &leaf = nodes_[slot / width];
+    double extent = 0;
     for (int c = 0; c < dim; ++c)
     {
-      mean_extent_ += (box[c + dim] - box[c]) / static_cast<double>(order_.size());
+      extent += box[c + dim] - box[c];
       leaf.low[c][slot % width] = static_cast<float>(box[c] - origin_[c]) - slack;
       leaf.high[c][slot % width] = static_cast<float>(box[c + dim] - origin_[c]) + slack;
     }
+    inverse_extents += extent > 0 ? 1 / extent : 0;
   }
+  mean_extent_ = inverse_extents > 0 ? static_cast<double>(order_.size()) / inverse_extents : 0;
   refit_parents();
 }
 

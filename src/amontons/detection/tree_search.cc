@@ -50,7 +50,8 @@ private:
     Index face = -1;
     LocalPoint xi{0, 0};
     double squared_distance = 0;
-    int n_hits = 0; ///< in hits_; -1: it has seen all within reach
+    double margin = 0; ///< beyond the closest face
+    int n_hits = 0;    ///< in hits_; -1: it has seen all within reach
     [[nodiscard]] double bound() const { return face < 0 ? w : std::min(w, std::sqrt(squared_distance)); }
   };
   struct PendingPair
@@ -256,10 +257,10 @@ void TreeSearch<dim>::seek(const Query &query, std::span<const Index> nodes, std
       const double bound = sought.bound();
       if (sought.n_hits < 0 || bound <= sought.radius)
       {
+        sought.margin = sought.face < 0 ? usual_margin_ : margin * shorter_edge(sought.slot);
         finish(query, place, result[sought.node]);
         next_radius = std::max(next_radius, bound);
-        if (sought.face >= 0)
-          next_margin = std::max(next_margin, margin * shorter_edge(sought.slot));
+        next_margin = std::max(next_margin, sought.margin);
         continue;
       }
       sought.radius = sought.face < 0 ? std::min(4 * sought.radius, query.w) : bound;
@@ -340,8 +341,7 @@ void TreeSearch<dim>::finish(const Query &query, int place, Candidate &result)
   near_.set_hint(sought.node, sought.face >= 0 ? static_cast<std::int64_t>(sought.slot) : -1);
   if (sought.n_hits < 0 || query.exclusions)
     return;
-  const double own_margin = sought.face < 0 ? usual_margin_ : margin * shorter_edge(sought.slot);
-  const double radius = std::min(sought.bound() + own_margin, sought.radius + usual_margin_) + faces_.motion();
+  const double radius = std::min(sought.bound() + sought.margin, sought.radius + usual_margin_) + faces_.motion();
   near_.start(sought.node, sought.x.data(), radius);
   const auto bound = static_cast<float>(radius * radius);
   for (const BoxHit &hit : hits(place).first(sought.n_hits))

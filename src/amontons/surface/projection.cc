@@ -9,18 +9,6 @@
 
 namespace amontons
 {
-FaceCoordinates gather_face(int dim, std::span<const Index> nodes, std::span<const double> coordinates)
-{
-  FaceCoordinates face;
-  face.n_nodes = static_cast<int>(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-  {
-    const double *x = coordinates.data() + static_cast<std::ptrdiff_t>(nodes[i]) * dim;
-    face.x[i] = Eigen::Vector3d(x[0], x[1], dim == 3 ? x[2] : 0.0);
-  }
-  return face;
-}
-
 std::array<double, 4> shape_functions(int n_nodes, LocalPoint xi)
 {
   const auto [s, t] = xi;
@@ -39,34 +27,6 @@ std::array<std::array<double, 4>, 2> shape_gradients(int n_nodes, LocalPoint xi)
   if (n_nodes == 3)
     return {{{-1, 1, 0, 0}, {-1, 0, 1, 0}}};
   return {{{t - 1, 1 - t, t, -t}, {s - 1, -s, s, 1 - s}}};
-}
-
-Eigen::Vector3d face_point(const FaceCoordinates &face, LocalPoint xi)
-{
-  const auto [s, t] = xi;
-  const auto &x = face.x;
-  if (face.n_nodes == 2)
-    return x[0] + s * (x[1] - x[0]);
-  if (face.n_nodes == 3)
-    return x[0] + s * (x[1] - x[0]) + t * (x[2] - x[0]);
-  return (1 - t) * ((1 - s) * x[0] + s * x[1]) + t * (s * x[2] + (1 - s) * x[3]);
-}
-
-std::array<Eigen::Vector3d, 2> face_tangents(const FaceCoordinates &face, LocalPoint xi)
-{
-  const auto [s, t] = xi;
-  const auto &x = face.x;
-  if (face.n_nodes == 2)
-    return {x[1] - x[0], Eigen::Vector3d::UnitZ()};
-  if (face.n_nodes == 3)
-    return {x[1] - x[0], x[2] - x[0]};
-  return {(1 - t) * (x[1] - x[0]) + t * (x[2] - x[3]), (1 - s) * (x[3] - x[0]) + s * (x[2] - x[1])};
-}
-
-Eigen::Vector3d face_normal(const FaceCoordinates &face, LocalPoint xi)
-{
-  const auto tangents = face_tangents(face, xi);
-  return tangents[0].cross(tangents[1]).normalized();
 }
 
 namespace
@@ -163,30 +123,6 @@ FaceProjection project_on_face(const FaceCoordinates &face, const Eigen::Vector3
 FaceProjection project_on_face(const FaceCoordinates &face, const Eigen::Vector3d &x)
 {
   return project_on_face(face, x, face.n_nodes == 4 ? closest_point(face, x).xi : LocalPoint{0, 0});
-}
-
-FeatureOfFace feature_at(int n_nodes, LocalPoint xi, double tolerance)
-{
-  const auto [s, t] = xi;
-  if (n_nodes == 2)
-  {
-    if (s <= tolerance || s >= 1 - tolerance)
-      return {FaceFeature::vertex, s <= tolerance ? 0 : 1};
-    return {};
-  }
-  // On which edges, in the order of the vertices they start from.
-  std::array<bool, 4> on{};
-  if (n_nodes == 3)
-    on = {t <= tolerance, s + t >= 1 - tolerance, s <= tolerance, false};
-  else
-    on = {t <= tolerance, s >= 1 - tolerance, t >= 1 - tolerance, s <= tolerance};
-  for (int k = 0; k < n_nodes; ++k)
-    if (on[k] && on[(k + n_nodes - 1) % n_nodes])
-      return {FaceFeature::vertex, k};
-  for (int k = 0; k < n_nodes; ++k)
-    if (on[k])
-      return {FaceFeature::edge, k};
-  return {};
 }
 
 bool in_face(int n_nodes, LocalPoint xi, double tolerance)
