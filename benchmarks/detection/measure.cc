@@ -45,6 +45,7 @@ struct Samples
   std::map<std::string, std::vector<double>> steps;
   double bytes = 0; ///< per surface node, both sides
   std::vector<double> distances;
+  Index n_wrong_again = 0;
 };
 
 double median(std::vector<double> values)
@@ -99,8 +100,8 @@ private:
       samples.steps[step].push_back(seconds * ns_);
     const auto n_nodes = static_cast<double>(scene_.impactor.n_nodes()) + scene_.target.n_nodes();
     samples.bytes = static_cast<double>(heap_bytes() - before + method->bytes_apart()) / n_nodes;
-    if (samples.distances.empty())
-      samples.distances = name == "exact" || name == "nearest-node" ? own_distances(name) : method->distances();
+    if (samples.distances.empty() && name != "exact" && name != "nearest-node")
+      samples.distances = method->distances();
     double again = 0;
     const int n_steps = method->keeps_pairs() ? n_motions : 1;
     for (int step = 1; step <= n_steps; ++step)
@@ -109,13 +110,23 @@ private:
       again += phases.build + phases.query;
     }
     samples.again.push_back(again / n_steps * ns_);
+    if (samples.distances.empty())
+      compare_own(name, samples);
   }
 
-  [[nodiscard]] std::vector<double> own_distances(const std::string &name) const
+  // Nothing but closest points, so that they can be compared; and whether those after some motions are, number by
+  // number, those from nothing.
+  void compare_own(const std::string &name, Samples &samples) const
   {
-    const auto method = make_own_method(scene_, name, true);
-    method->detect(positions_[0]);
-    return method->distances();
+    const auto kept = make_own_method(scene_, name, true), fresh = make_own_method(scene_, name, true);
+    kept->detect(positions_[0]);
+    samples.distances = kept->distances();
+    for (int step = 1; step <= n_motions; ++step)
+      kept->detect(positions_[step]);
+    fresh->detect(positions_[n_motions]);
+    const std::vector<double> again = kept->distances(), first = fresh->distances();
+    for (std::size_t i = 0; i < first.size(); ++i)
+      samples.n_wrong_again += again[i] != first[i];
   }
 
   // As many as brute force can do.
@@ -207,6 +218,8 @@ private:
     for (const auto &[step, values] : samples.steps)
       result["steps_ns"][step] = median(values);
     count_wrong(result, samples.distances, least);
+    if (name == "exact")
+      result["wrong_again"] = samples.n_wrong_again;
     if (name == "nearest-node")
       result["occupied_cells"] = occupied_cells();
     return result;
