@@ -1,10 +1,10 @@
 #include "amontons/detection/detector.h"
 
 #include "amontons/base/error.h"
+#include "amontons/detection/renumbered_detector.h"
 #include "amontons/detection/search.h"
 #include "amontons/detection/search_distance.h"
 #include "amontons/detection/self_contact_roles.h"
-#include "amontons/detection/visiting_order.h"
 
 #include <Eigen/Dense>
 
@@ -60,7 +60,6 @@ public:
     , impactor_(impactor)
     , target_(target)
     , search_(make_search(options.method, target.dim))
-    , order_(visiting_order(impactor))
     , pairing_(impactor.node_ids.size())
     , candidates_(impactor.node_ids.size())
   {
@@ -106,7 +105,6 @@ private:
   SearchDistance distance_;
   std::optional<Exclusions> exclusions_; ///< with roles_: self-contact
   std::optional<Roles> roles_;
-  std::vector<Index> order_; ///< of impactor nodes, such that neighbours mostly follow one another
   Pairing pairing_;
   DetectionReport report_;
   Timers timers_;
@@ -137,7 +135,7 @@ void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span
   if (!std::isfinite(sum))
     throw NumericalFailure("contact detection: the nodes' positions are not finite");
   nodes_.clear();
-  for (const Index node : order_)
+  for (Index node = 0; node < impactor_.n_nodes(); ++node)
   {
     bool inside = true;
     for (int c = 0; c < dim; ++c)
@@ -342,7 +340,12 @@ void SurfaceDetector::summarise_self_contact()
 
 std::unique_ptr<Detector> make_detector(const DetectionOptions &options, const Surface &impactor, const Surface &target)
 {
-  return std::make_unique<SurfaceDetector>(options, impactor, target);
+  const auto make = [&options](const Surface &own_impactor, const Surface &own_target)
+  { return std::make_unique<SurfaceDetector>(options, own_impactor, own_target); };
+  if (options.method == DetectionMethod::exact)
+    if (auto renumbered = make_renumbered_detector(impactor, target, make))
+      return renumbered;
+  return make(impactor, target);
 }
 
 std::unique_ptr<Detector> make_self_detector(const DetectionOptions &options, const Surface &surface,

@@ -3,7 +3,7 @@
 #include "amontons/detection/hilbert.h"
 
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace amontons
 {
@@ -15,9 +15,7 @@ constexpr double close = 8;
 template<int dim>
 std::vector<Index> order_of(const Surface &surface)
 {
-  std::vector<Index> order(surface.node_ids.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::vector<std::array<double, dim>> points(order.size());
+  std::vector<std::array<double, dim>> points(surface.node_ids.size());
   std::array<double, dim> low, high;
   low.fill(std::numeric_limits<double>::infinity());
   high.fill(-std::numeric_limits<double>::infinity());
@@ -42,7 +40,7 @@ std::vector<Index> order_of(const Surface &surface)
   const double spacing = std::sqrt(squared_diagonal) / std::pow(n, 1.0 / (dim - 1));
   if (way > close * n * spacing)
     return curve_order<dim>(points);
-  return order;
+  return {};
 }
 } // namespace
 

@@ -5,7 +5,7 @@
 
 namespace amontons
 {
-/// The order in which to visit the nodes of a surface: as they are numbered where nodes that follow one another are
-/// mostly close, else along a Hilbert curve through their reference coordinates.
+/// The nodes of a surface along a Hilbert curve through their reference coordinates; empty where nodes that follow one
+/// another are mostly close as they are numbered.
 std::vector<Index> visiting_order(const Surface &surface);
 } // namespace amontons

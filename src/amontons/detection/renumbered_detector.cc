@@ -1,0 +1,136 @@
+#include "amontons/detection/renumbered_detector.h"
+
+#include "amontons/detection/visiting_order.h"
+
+namespace amontons
+{
+namespace
+{
+/// A surface with its nodes in a given order and its faces in that of their first nodes.
+struct Renumbered
+{
+  Renumbered(const Surface &original, std::vector<Index> node_order);
+
+  Surface surface;
+  std::vector<Index> nodes, faces; ///< those on the original surface
+};
+
+Renumbered::Renumbered(const Surface &original, std::vector<Index> node_order)
+  : nodes(std::move(node_order))
+{
+  surface.dim = original.dim;
+  surface.node_ids.reserve(nodes.size());
+  surface.reference.reserve(original.reference.size());
+  std::vector<Index> number(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    number[nodes[i]] = static_cast<Index>(i);
+    surface.node_ids.push_back(original.node_ids[nodes[i]]);
+    const double *x = original.reference.data() + static_cast<std::ptrdiff_t>(nodes[i]) * original.dim;
+    surface.reference.insert(surface.reference.end(), x, x + original.dim);
+  }
+  if (original.node_face_offsets.size() != nodes.size() + 1)
+    return; // nodes alone
+  surface.face_nodes.reserve(original.face_nodes.size());
+  surface.face_offsets.reserve(original.face_offsets.size());
+  std::vector<char> taken(original.face_ids.size(), 0);
+  for (const Index node : nodes)
+    for (const Index f : original.faces_of_node(node))
+    {
+      if (taken[f])
+        continue;
+      taken[f] = 1;
+      faces.push_back(f);
+      for (const Index own : original.face(f))
+        surface.face_nodes.push_back(number[own]);
+      surface.face_offsets.push_back(static_cast<Index>(surface.face_nodes.size()));
+      surface.face_ids.push_back(original.face_ids[f]);
+      if (!original.face_bodies.empty())
+        surface.face_bodies.push_back(original.face_bodies[f]);
+    }
+  surface.build_adjacency();
+}
+
+/// One side as given or renumbered.
+class Side
+{
+public:
+  explicit Side(const Surface &surface)
+    : given_(surface)
+  {
+    if (std::vector<Index> order = visiting_order(surface); !order.empty())
+      own_.emplace(surface, std::move(order));
+  }
+
+  [[nodiscard]] bool is_renumbered() const { return own_.has_value(); }
+  [[nodiscard]] const Surface &surface() const { return own_ ? own_->surface : given_; }
+  [[nodiscard]] Index original_node(Index node) const { return own_ && node >= 0 ? own_->nodes[node] : node; }
+  [[nodiscard]] Index original_face(Index face) const { return own_ && face >= 0 ? own_->faces[face] : face; }
+
+  std::span<const double> numbered(std::span<const double> x)
+  {
+    if (!own_)
+      return x;
+    const int dim = given_.dim;
+    x_.resize(x.size());
+    for (std::size_t i = 0; i < own_->nodes.size(); ++i)
+      for (int c = 0; c < dim; ++c)
+        x_[i * dim + c] = x[static_cast<std::size_t>(own_->nodes[i]) * dim + c];
+    return x_;
+  }
+
+private:
+  const Surface &given_;
+  std::optional<Renumbered> own_;
+  std::vector<double> x_;
+};
+
+class RenumberedDetector : public Detector
+{
+public:
+  RenumberedDetector(const Surface &impactor, const Surface &target)
+    : impactor_(impactor)
+    , target_(target)
+  {
+  }
+
+  [[nodiscard]] bool is_needed() const { return impactor_.is_renumbered() || target_.is_renumbered(); }
+  void start(const DetectorMaker &make) { inner_ = make(impactor_.surface(), target_.surface()); }
+
+  const Pairing &detect(std::span<const double> impactor_x, std::span<const double> target_x, double reach) override
+  {
+    const Pairing &found = inner_->detect(impactor_.numbered(impactor_x), target_.numbered(target_x), reach);
+    pairing_.resize(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      Pair &pair = pairing_[impactor_.original_node(static_cast<Index>(i))] = found[i];
+      pair.face = target_.original_face(pair.face);
+    }
+    return pairing_;
+  }
+
+  [[nodiscard]] DetectionReport report() const override
+  {
+    DetectionReport report = inner_->report();
+    report.distance_face = target_.original_face(report.distance_face);
+    report.deepest_node = impactor_.original_node(report.deepest_node);
+    return report;
+  }
+
+private:
+  Side impactor_, target_;
+  std::unique_ptr<Detector> inner_;
+  Pairing pairing_;
+};
+} // namespace
+
+std::unique_ptr<Detector> make_renumbered_detector(const Surface &impactor, const Surface &target,
+                                                   const DetectorMaker &make)
+{
+  auto detector = std::make_unique<RenumberedDetector>(impactor, target);
+  if (!detector->is_needed())
+    return nullptr;
+  detector->start(make);
+  return detector;
+}
+} // namespace amontons
