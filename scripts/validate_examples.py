@@ -119,6 +119,13 @@ def ironing(finished):
             Figure("Fx at t = 1.5", abs(fx), abs(fx))]
 
 
+def ring_on_itself(finished):
+    """What the roller presses and the contact within does not carry, the folds bear: as much as without that contact."""
+    within, above = finished.contact("within"), finished.contact("above")
+    borne = [sum(contact[force][1] for force in ("normal_force", "tangential_force")) for contact in (above, within)]
+    return [Figure("borne by the folds", abs(borne[0] - borne[1]), 0.3916, 0.03)]
+
+
 COMPOSITE = lame_composite(1e6, 0.2, 0.6, 1.0)
 SHRUNK = lame_interference(1e9, 6e-4, 0.2, 0.6, 1.0)
 # name, deck, overrides, figures
@@ -141,6 +148,7 @@ CASES = [
     ("hertz-sphere/friction", "hertz-sphere/friction.yaml", [], sphere_with_friction),
     ("punch", "punch/punch.yaml", [], punch),
     ("blocks-3d", "blocks-3d/blocks-3d.yaml", [], sliding_blocks),
+    ("self-contact", "self-contact/ring.yaml", [], ring_on_itself),
     ("ironing", "ironing/ironing.yaml", [], ironing),
 ]
 

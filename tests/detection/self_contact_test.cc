@@ -257,8 +257,10 @@ void expect_covered(const Case &c, const Surface &surface, const std::vector<dou
     return;
   for (Index node = 0; node < surface.n_nodes(); ++node)
   {
+    if (is_bent(surface, x, node))
+      continue;
     const auto [face, distance] = straight_before(surface, x, node);
-    if (face < 0 || distance > 0.5 * c.distance || is_bent(surface, x, node))
+    if (face < 0 || distance > 0.5 * c.distance)
       continue;
     const auto nodes = surface.face(face);
     EXPECT_TRUE(pairing[node].face >= 0 || pairing[nodes[0]].face >= 0 || pairing[nodes[1]].face >= 0)
