@@ -1,5 +1,6 @@
 #include "amontons/algebra/constraint_rows.h"
 #include "amontons/base/error.h"
+#include "element_blocks.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -11,85 +12,29 @@ namespace amontons
 {
 namespace
 {
-constexpr double r = 3.7;
-
-/// The blocks of an augmented Lagrangian's element (THEORY.md section 2), on directions that mean nothing.
-struct Blocks
-{
-  Eigen::MatrixXd stiffness, force_by_multiplier, constraint_by_position, constraint_by_multiplier;
-  [[nodiscard]] ConstraintValues values() const
-  {
-    return {stiffness, force_by_multiplier, constraint_by_position, constraint_by_multiplier, r};
-  }
-};
+using test::ElementBlocks;
+constexpr double r = test::augmentation;
 
 class ReducedConstraint : public testing::TestWithParam<int>
 {
 protected:
-  double number() { return std::uniform_real_distribution(-1., 1.)(random_); }
-  Eigen::MatrixXd numbers(Eigen::Index rows, Eigen::Index cols)
-  {
-    return Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return number(); });
-  }
-
   [[nodiscard]] int dim() const { return GetParam(); }
-  [[nodiscard]] int n() const { return dim() == 2 ? 6 : 15; }
+  [[nodiscard]] int n() const { return make_.n(); }
+  Eigen::MatrixXd numbers(Eigen::Index rows, Eigen::Index cols) { return make_.numbers(rows, cols); }
+  ElementBlocks stick() { return make_.stick(); }
+  ElementBlocks frictionless() { return make_.frictionless(); }
+  ElementBlocks slip(double mu, double k) { return make_.slip(mu, k); }
 
-  /// Orthonormal directions of gap and slip at the impactor node; their reaction elsewhere.
-  Eigen::MatrixXd directions()
-  {
-    const Eigen::MatrixXd frame = Eigen::HouseholderQR<Eigen::MatrixXd>(numbers(dim(), dim())).householderQ();
-    Eigen::MatrixXd out(dim(), n());
-    const int n_nodes = n() / dim();
-    for (int node = 0; node < n_nodes; ++node)
-      out.middleCols(node * dim(), dim()) = frame * (node == 0 ? 1. : -1. / (n_nodes - 1));
-    return out;
-  }
-
-  /// @param by_sigma_n, by_sigma_t derivatives of the tangential force
-  Blocks blocks(const Eigen::VectorXd &by_sigma_n, const Eigen::MatrixXd &by_sigma_t)
-  {
-    const Eigen::MatrixXd rows = directions(), normal = rows.topRows(1), tangents = rows.bottomRows(dim() - 1);
-    const Eigen::MatrixXd q = by_sigma_n * normal + by_sigma_t * tangents;
-    Blocks out;
-    out.stiffness = r * (normal.transpose() * normal + tangents.transpose() * q);
-    out.force_by_multiplier.resize(n(), dim());
-    out.force_by_multiplier << normal.transpose() + tangents.transpose() * by_sigma_n,
-        tangents.transpose() * by_sigma_t;
-    out.constraint_by_position.resize(dim(), n());
-    out.constraint_by_position << normal, q;
-    out.constraint_by_multiplier = Eigen::MatrixXd::Zero(dim(), dim());
-    out.constraint_by_multiplier.bottomLeftCorner(dim() - 1, 1) = by_sigma_n / r;
-    out.constraint_by_multiplier.bottomRightCorner(dim() - 1, dim() - 1) =
-        (by_sigma_t - Eigen::MatrixXd::Identity(dim() - 1, dim() - 1)) / r;
-    return out;
-  }
-
-  Blocks open()
-  {
-    return {Eigen::MatrixXd::Zero(n(), n()), Eigen::MatrixXd::Zero(n(), dim()), Eigen::MatrixXd::Zero(dim(), n()),
-            -Eigen::MatrixXd::Identity(dim(), dim()) / r};
-  }
-  Blocks stick() { return blocks(Eigen::VectorXd::Zero(dim() - 1), Eigen::MatrixXd::Identity(dim() - 1, dim() - 1)); }
-  Blocks frictionless()
-  {
-    return blocks(Eigen::VectorXd::Zero(dim() - 1), Eigen::MatrixXd::Zero(dim() - 1, dim() - 1));
-  }
-  Blocks slip(double mu, double k)
-  {
-    const Eigen::VectorXd s = numbers(dim() - 1, 1).normalized();
-    return blocks(-mu * s, k * (Eigen::MatrixXd::Identity(dim() - 1, dim() - 1) - s * s.transpose()));
-  }
-  static void drop_row(Blocks &out, Eigen::Index row)
+  static void drop_row(ElementBlocks &out, Eigen::Index row)
   {
     out.constraint_by_position.row(row).setZero();
     out.constraint_by_multiplier.row(row).setZero();
     out.constraint_by_multiplier(row, row) = -1 / r;
   }
   /// Of the tangential rows one is kept, turned into another direction of the tangent plane.
-  Blocks half_stuck()
+  ElementBlocks half_stuck()
   {
-    Blocks out = stick();
+    ElementBlocks out = stick();
     const double angle = 1.1;
     const Eigen::Vector2d kept{std::cos(angle), std::sin(angle)}, dropped{-kept[1], kept[0]};
     out.constraint_by_position.row(1) = kept.transpose() * out.constraint_by_position.bottomRows(2).eval();
@@ -99,7 +44,7 @@ protected:
   }
 
   /// Solves bodies and constraint whole, and reduced, and compares.
-  void expect_same_solution(const Blocks &b, int n_rows, bool symmetric)
+  void expect_same_solution(const ElementBlocks &b, int n_rows, bool symmetric)
   {
     const int m = dim();
     const Eigen::MatrixXd part = numbers(n(), n()), k = part * part.transpose() + Eigen::MatrixXd::Identity(n(), n());
@@ -126,13 +71,13 @@ protected:
     EXPECT_LT((dlambda - expected.tail(m)).norm(), 1e-10 * expected.norm());
   }
 
-  std::mt19937 random_{11};
+  test::ElementMaker make_{GetParam(), GetParam() == 2 ? 3 : 5, 11};
 };
 
 TEST_P(ReducedConstraint, OpenHasNoRows)
 {
-  expect_same_solution(open(), 0, true);
-  EXPECT_EQ(reduce_constraint(open().values()).stiffness.size(), 0);
+  expect_same_solution(make_.open(), 0, true);
+  EXPECT_EQ(reduce_constraint(make_.open().values()).stiffness.size(), 0);
 }
 
 TEST_P(ReducedConstraint, StickAndFrictionlessLeaveNoStiffness)
@@ -163,7 +108,7 @@ TEST_P(ReducedConstraint, ForceOfSlipIsTheNormalAndFriction)
 {
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(dim() - 1, dim() - 1);
   const Eigen::VectorXd s = Eigen::VectorXd::Unit(dim() - 1, 0);
-  const Blocks b = blocks(-0.3 * s, 0.5 * (identity - s * s.transpose()));
+  const ElementBlocks b = make_.blocks(-0.3 * s, 0.5 * (identity - s * s.transpose()));
   const ConstraintRows rows = reduce_constraint(b.values());
   const double sign = rows.rows.row(0).dot(b.constraint_by_position.row(0)) > 0 ? 1 : -1;
   EXPECT_LT((sign * rows.forces - b.force_by_multiplier.col(0)).norm(), 1e-12);
@@ -171,7 +116,7 @@ TEST_P(ReducedConstraint, ForceOfSlipIsTheNormalAndFriction)
 
 TEST_P(ReducedConstraint, RowsDropped)
 {
-  Blocks none = stick(), one_left = stick(), frictionless_none = frictionless(), slipping = slip(0.4, 0.6);
+  ElementBlocks none = stick(), one_left = stick(), frictionless_none = frictionless(), slipping = slip(0.4, 0.6);
   for (int row = 0; row < dim(); ++row)
     drop_row(none, row);
   drop_row(one_left, 0);
@@ -191,7 +136,7 @@ TEST_P(ReducedConstraint, RowsDropped)
 TEST_P(ReducedConstraint, GeometricStiffnessStays)
 {
   const Eigen::MatrixXd any = 0.1 * numbers(n(), n());
-  for (Blocks b : {stick(), frictionless()})
+  for (ElementBlocks b : {stick(), frictionless()})
   {
     b.stiffness += any + any.transpose();
     expect_same_solution(b, static_cast<int>(reduce_constraint(b.values()).rows.rows()), true);
@@ -211,7 +156,7 @@ TEST_P(ReducedConstraint, NodeWithoutAPair)
 
 TEST_P(ReducedConstraint, RowOfNothingIsAFailure)
 {
-  Blocks b = frictionless();
+  ElementBlocks b = frictionless();
   b.constraint_by_position.row(0).setZero();
   EXPECT_THROW(reduce_constraint(b.values()), NumericalFailure);
 }

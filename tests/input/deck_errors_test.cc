@@ -45,8 +45,10 @@ const BadDeck words[]{
     {"Choice", "linear-elastic", "linear-elastik",
      "deck.yaml:6:21: bodies.0.material.law: must be one of linear-elastic, neo-hookean, rigid, not 'linear-elastik' "
      "(did you mean 'linear-elastic'?)"},
-    {"SolverNotBuilt", "loading:", "solver: {linear: amg}\nloading:",
-     "deck.yaml:20:18: solver.linear: must be one of auto, direct, not 'amg'"},
+    {"CoupledMultigrid", "loading:", "solver: {linear: amg, multipliers: coupled}\nloading:",
+     "deck.yaml:20:36: solver.multipliers: must be condensed with linear: amg or feti; coupled goes with linear: "
+     "direct "
+     "or auto"},
     {"DuplicateKey", "    region: punch\n", "    region: punch\n    region: block\n",
      "deck.yaml:9:5: the key 'region' stands twice in the same place; first at deck.yaml:8:5"},
     {"MissingKey", "poisson: 0.3", "",

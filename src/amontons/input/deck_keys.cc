@@ -58,11 +58,28 @@ Section<DetectionOptions> detection_keys()
 Section<SolverOptions> solver_keys()
 {
   Section<SolverOptions> keys;
-  keys.choice("linear", &SolverOptions::linear,
-              {{"auto", LinearSolverType::automatic}, {"direct", LinearSolverType::direct}}, optional,
-              "how linear systems are solved; direct: by factorisation");
-  keys.choice("multipliers", &SolverOptions::multipliers, {{"coupled", MultiplierForm::coupled}}, optional,
-              "coupled: the contact multipliers are unknowns of the system");
+  keys.choice(
+      "linear", &SolverOptions::linear,
+      {{"auto", LinearSolverType::automatic},
+       {"direct", LinearSolverType::direct},
+       {"amg", LinearSolverType::amg},
+       {"feti", LinearSolverType::feti}},
+      optional,
+      "how linear systems are solved; direct: by factorisation; amg: by iteration with algebraic multigrid; feti: "
+      "by subdomains with the contact between them (small strain); auto: what is fastest for the size");
+  keys.choice(
+      "multipliers", &SolverOptions::multipliers,
+      {{"condensed", MultiplierForm::condensed}, {"coupled", MultiplierForm::coupled}}, optional,
+      "condensed: the contact constraints are eliminated, exactly; coupled: the multipliers are unknowns of the "
+      "system, which takes linear: direct");
+  keys.check(
+      [](const Value &value, SolverOptions &solver, ReadContext &)
+      {
+        if (solver.multipliers == MultiplierForm::coupled &&
+            (solver.linear == LinearSolverType::amg || solver.linear == LinearSolverType::feti))
+          value.find("multipliers")
+              ->fail("must be condensed with linear: amg or feti; coupled goes with linear: direct or auto");
+      });
   keys.number("tolerance", &SolverOptions::tolerance, {0, 1}, "1", optional,
               "Newton stops where the residual force is below this part of the forces present");
   keys.integer("max-iterations", &SolverOptions::max_iterations, at_least_one, optional,

@@ -1,5 +1,6 @@
 #include "amontons/solution/form_choice.h"
 
+#include "amontons/algebra/amg_solver.h"
 #include "amontons/algebra/condensed_form.h"
 #include "amontons/algebra/coupled_form.h"
 #include "amontons/algebra/feti_form.h"
@@ -36,27 +37,45 @@ std::vector<double> reference_places(const Model &model)
       out.push_back(model.reference(node)[c]);
   return out;
 }
+/// 3D displacements from which multigrid is faster than a factorisation, as measured (docs/decisions/0011).
+constexpr Index amg_from = 15000;
+
+/// The solver that `linear: auto` stands for.
+LinearSolverType linear_solver(const ProblemOptions &options, const Mesh &mesh)
+{
+  const LinearSolverType linear = options.solver.linear;
+  const bool coupled = options.solver.multipliers == MultiplierForm::coupled;
+  if (coupled && (linear == LinearSolverType::amg || linear == LinearSolverType::feti))
+    throw UserError("solver: 'multipliers: coupled' goes with 'linear: direct' only: the multipliers' part of the "
+                    "matrix is no work for amg or feti; take 'multipliers: condensed'");
+  if (linear != LinearSolverType::automatic)
+    return linear;
+  const bool large = mesh.dim == 3 && mesh.n_nodes() * mesh.dim > amg_from;
+  return large && !coupled ? LinearSolverType::amg : LinearSolverType::direct;
+}
 } // namespace
 
 std::vector<Index> make_partition(const ProblemOptions &options, const Mesh &mesh)
 {
-  if (options.solver.linear != LinearSolverType::feti)
+  if (linear_solver(options, mesh) != LinearSolverType::feti)
     return {};
   return partition_cells(mesh, options.bodies, subdomain_size(mesh.dim));
 }
 
 std::unique_ptr<SystemForm> make_form(const Model &model)
 {
-  if (model.options().solver.linear == LinearSolverType::feti)
+  const LinearSolverType linear = linear_solver(model.options(), model.mesh());
+  if (linear == LinearSolverType::feti)
   {
     if (!model.small_strain())
       throw UserError("solver: 'linear: feti' solves problems of small strain: in finite strain the stiffness of a "
                       "compressed subdomain is not positive; take 'amg' or 'direct'");
     return make_feti(model);
   }
-  if (model.options().solver.multipliers == MultiplierForm::condensed)
-    return std::make_unique<CondensedForm>(model.layout(), model.bodies().subdomains(), make_direct_solver(),
-                                           reference_places(model));
-  return std::make_unique<CoupledForm>(model.layout(), model.bodies().subdomains(), make_direct_solver());
+  if (model.options().solver.multipliers == MultiplierForm::coupled)
+    return std::make_unique<CoupledForm>(model.layout(), model.bodies().subdomains(), make_direct_solver());
+  return std::make_unique<CondensedForm>(model.layout(), model.bodies().subdomains(),
+                                         linear == LinearSolverType::amg ? make_amg_solver() : make_direct_solver(),
+                                         reference_places(model));
 }
 } // namespace amontons
