@@ -95,8 +95,8 @@ private:
   AttachedFace outer_, inner_; ///< best on either side
 };
 
-// In self-contact a node that has come through next to a sharp edge, flush with the side round it, is nearest to that
-// side; but it is turned away, and the node came through the face that it sees.
+// In self-contact the target ends at sharp edges beyond which it is turned away: a node next to such an edge, flush
+// with the side round it, came through the face that it sees, though it is nearer to the side.
 bool FeatureView::counts(Index face) const
 {
   if (!sight_.exclusions || !sight_.exclusions->is_turned_away(sight_.node, face))
@@ -115,7 +115,8 @@ Vector3d into_face(const Vector3d &a, const Vector3d &b, const Vector3d &normal)
 void FeatureView::note_end(const AttachedFace &attached, int k, const Vector3d &inward)
 {
   const double overhang = -offset_.dot(inward);
-  if (target_.neighbour(attached.face, k) >= 0 || overhang <= std::max(feature_.overhang, same * size_))
+  const Index beyond = target_.neighbour(attached.face, k);
+  if ((beyond >= 0 && counts(beyond)) || overhang <= std::max(feature_.overhang, same * size_))
     return;
   feature_.overhang = overhang;
   feature_.extent = 0;
@@ -151,7 +152,7 @@ void FeatureView::look_at_edge(int k, LocalPoint xi)
   const double along = (point_ - xa).dot(xb - xa) / (xb - xa).squaredNorm();
   for (const Index f : {face_, target_.neighbour(face_, k)})
   {
-    if (f < 0)
+    if (f < 0 || !counts(f))
       continue;
     AttachedFace attached{f, target_.face(f), xi, Vector3d::Zero()};
     const auto own = target_.surface().face(f);
@@ -165,7 +166,7 @@ void FeatureView::look_at_edge(int k, LocalPoint xi)
     const int n = attached.x.n_nodes;
     const bool forward = (i + 1) % n == j;
     const Vector3d inward = into_face(attached.x.x[forward ? i : j], attached.x.x[forward ? j : i], attached.normal);
-    if (offset_.dot(inward) > same * size_ && counts(f))
+    if (offset_.dot(inward) > same * size_)
       feature_.is_minimum = false;
     if (only_minima_ && !feature_.is_minimum)
       return;
@@ -200,6 +201,8 @@ void FeatureView::look_at_vertex(int k)
     return;
   for (const Index f : target_.surface().faces_of_node(node))
   {
+    if (!counts(f))
+      continue;
     AttachedFace attached{f, target_.face(f), {0, 0}, Vector3d::Zero()};
     const int n = attached.x.n_nodes, i = position_of(target_.surface().face(f), node);
     attached.xi = vertex_coordinates(n, i);

@@ -21,7 +21,7 @@ struct Feature
   double extent = 0;                  ///< of the face, in that direction
   Eigen::Vector3d normal = {0, 0, 0}; ///< of pair.face at the closest point
   bool inside = false;                ///< the node is seen from inside the body
-  bool is_minimum = true; ///< no attached face comes closer, to first order; but see counts() in self-contact
+  bool is_minimum = true;             ///< no attached face comes closer, to first order
 };
 
 /// Looks at a candidate with all faces that meet at it (THEORY.md section 4, step 4):
@@ -39,6 +39,8 @@ struct Feature
 /// angles, which is right at every vertex of a closed surface (Baerentzen, Aanaes 2005); only faces that agree with it
 /// are chosen.
 /// @param only_minima give up, with only `is_minimum` set, where the candidate is not one
+/// In self-contact the target ends at sharp edges beyond which it is turned away from the node: a corner flush with
+/// another comes through the face it sees, though it is nearer to the side.
 /// @param sight faces that are hidden from the node are not chosen (the candidate's own is seen)
 Feature look_at(const Target &target, const Candidate &candidate, const Eigen::Vector3d &x, bool only_minima = false,
                 Sight sight = {});
