@@ -47,7 +47,8 @@ struct BoxKernels
   /// Collects the leaves within the bound of the box [low, high]. @return false if they are too many for a front
   bool (*collect)(const BoxTreeView<dim> &tree, const float *low, const float *high, float squared_bound,
                   BoxFront<dim> &front);
-  /// Boxes of the front's leaves within the bound of x. @return how many; more than `capacity`: not all are in hits
+  /// Boxes of the front's leaves within the bound of x. @return how many; more than `capacity`: not all are in hits,
+  /// but the one of lowest score is
   int (*scan)(const BoxTreeView<dim> &tree, const BoxFront<dim> &front, const float *x, float squared_bound,
               BoxHit *hits, int capacity);
   /// Positions along the Hilbert curve (hilbert.h) of n cells, n a multiple of 16, `bits` per axis.

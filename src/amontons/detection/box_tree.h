@@ -44,7 +44,7 @@ public:
   bool collect(const Box &group, double squared_bound, Front &front) const;
 
   /// Faces of a front within the bound of x, which was within the front's box and bound.
-  /// @return how many; where more than `hits` holds not all are in it
+  /// @return how many; where more than `hits` holds not all are in it, but the one of lowest score is
   int scan(const Front &front, const double *x, double squared_bound, std::span<BoxHit> hits) const;
 
   /// Visits the faces whose boxes come within the bound of x, the nearer first.

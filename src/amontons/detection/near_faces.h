@@ -65,6 +65,13 @@ public:
     return std::sqrt(squared) + target_motion;
   }
 
+  /// Keeps only the hint.
+  void forget(std::size_t node)
+  {
+    nodes_[node].radius = -1;
+    nodes_[node].n = 0;
+  }
+
   /// Starts the list of a node; add() appends to the list started last.
   void start(std::size_t node, const double *x, double radius)
   {

@@ -34,7 +34,8 @@ public:
               std::vector<Candidate> &result) override;
 
 private:
-  static constexpr int block_size = FaceBatch::capacity, group_size = 16, max_hits = 48;
+  static constexpr int block_size = FaceBatch::capacity, group_size = 16, max_hits = 128;
+  static constexpr int most_listed = 24; ///< near faces kept for a node
   static constexpr std::uint32_t no_slot = ~0U;
   // What faces are listed beyond the closest one, in units of its shorter edge.
   static constexpr double margin = 0.25;
@@ -51,7 +52,9 @@ private:
     LocalPoint xi{0, 0};
     double squared_distance = 0;
     double margin = 0; ///< beyond the closest face
-    int n_hits = 0;    ///< in hits_; -1: it has seen all within reach
+    int n_hits = 0;    ///< in hits_; or one of the following
+    int n_crowded = 0; ///< how often there were too many boxes within the radius
+    static constexpr int all_seen = -1, sought_again = -2;
     [[nodiscard]] double bound() const { return face < 0 ? w : std::min(w, std::sqrt(squared_distance)); }
   };
   struct PendingPair
@@ -70,7 +73,9 @@ private:
   void verify(const Query &query, std::span<const Index> nodes, std::span<Candidate> result);
   void seek(const Query &query, std::span<const Index> nodes, std::span<Candidate> result);
   void start(const Query &query, std::span<const Index> nodes);
+  void expect_alike(const Query &query, std::span<const Sought> block);
   void find_boxes(const Query &query, std::span<const int> places);
+  void find_boxes_in_a_crowd(const Query &query, std::span<const int> places);
   void descend(const Query &query, Sought &sought);
   void finish(const Query &query, int place, Candidate &result);
   void add(const Query &query, int place, std::uint32_t slot);
@@ -171,7 +176,7 @@ void TreeSearch<dim>::verify(const Query &query, std::span<const Index> nodes, s
     motion[place] = near_.motion(sought.node, sought.x.data(), faces_.motion());
     const double clearance = near_.clearance(sought.node, motion[place]);
     if (near_.faces(sought.node).empty() ? !(clearance > query.w) : clearance < 0)
-      sought.n_hits = -1; // not to be proven
+      sought.n_hits = Sought::all_seen; // not to be proven
     else if (!near_.faces(sought.node).empty())
       add(query, place, static_cast<std::uint32_t>(near_.hint(sought.node)));
   }
@@ -181,7 +186,7 @@ void TreeSearch<dim>::verify(const Query &query, std::span<const Index> nodes, s
     Sought &sought = block_[place];
     const double bound = sought.bound();
     if (sought.n_hits < 0 || !(bound < near_.clearance(sought.node, motion[place])))
-      sought.n_hits = -1;
+      sought.n_hits = Sought::all_seen;
     else
       for (const auto &[slot, lower] : near_.faces(sought.node))
         if (slot != sought.slot && lower - motion[place] <= bound)
@@ -230,7 +235,6 @@ void TreeSearch<dim>::seek(const Query &query, std::span<const Index> nodes, std
   project_all();
   for (int place = 0; place < n_pending; ++place)
     block_[place].radius = block_[place].face < 0 ? std::min(usual_radius_, query.w) : block_[place].bound();
-  double next_radius = 0, next_margin = 0;
   while (n_pending > 0)
   {
     const std::span<const int> places(pending.data(), static_cast<std::size_t>(n_pending));
@@ -255,21 +259,35 @@ void TreeSearch<dim>::seek(const Query &query, std::span<const Index> nodes, std
     {
       Sought &sought = block_[place];
       const double bound = sought.bound();
-      if (sought.n_hits < 0 || bound <= sought.radius)
+      if (sought.n_hits == Sought::all_seen || (sought.n_hits >= 0 && bound <= sought.radius))
       {
         sought.margin = sought.face < 0 ? usual_margin_ : margin * shorter_edge(sought.slot);
         finish(query, place, result[sought.node]);
-        next_radius = std::max(next_radius, bound);
-        next_margin = std::max(next_margin, sought.margin);
         continue;
       }
-      sought.radius = sought.face < 0 ? std::min(4 * sought.radius, query.w) : bound;
+      if (sought.face >= 0)
+        sought.radius = bound;
+      else if (sought.n_hits >= 0)
+        sought.radius = std::min(2 * sought.radius, query.w);
       pending[n_left++] = place;
     }
     n_pending = n_left;
   }
-  usual_radius_ = std::max(1.25 * next_radius, 1e-3 * query.w);
-  usual_margin_ = next_margin;
+  expect_alike(query, std::span(block_).first(nodes.size()));
+}
+
+// What the last nodes needed the next will mostly need too.
+template<int dim>
+void TreeSearch<dim>::expect_alike(const Query &query, std::span<const Sought> block)
+{
+  double radius = 1e-3 * query.w;
+  usual_margin_ = 0;
+  for (const Sought &sought : block.last(std::min<std::size_t>(group_size, block.size())))
+  {
+    radius = std::max(radius, 1.25 * sought.bound());
+    usual_margin_ = std::max(usual_margin_, sought.margin);
+  }
+  usual_radius_ = std::min(radius, query.w);
 }
 
 // The boxes within each node's radius and margin, by way of the leaves within the largest of these.
@@ -292,22 +310,48 @@ void TreeSearch<dim>::find_boxes(const Query &query, std::span<const int> places
   }
   const double margins = usual_margin_ + faces_.motion();
   if (!tree_.collect(box, (largest + margins) * (largest + margins), front_))
-  {
-    if (places.size() == 1)
-      return descend(query, block_[places[0]]);
-    find_boxes(query, places.first(places.size() / 2));
-    return find_boxes(query, places.subspan(places.size() / 2));
-  }
+    return find_boxes_in_a_crowd(query, places);
   for (const int place : places)
   {
     Sought &sought = block_[place];
     const double reach = sought.radius + margins;
     sought.n_hits = tree_.scan(front_, sought.x.data(), reach * reach, hits(place));
-    if (sought.n_hits > max_hits)
-      descend(query, sought);
-    else
+    if (sought.n_hits <= max_hits)
       for (int i = 0; i < sought.n_hits; ++i)
         faces_.prefetch(hits(place)[i].slot);
+    else if (sought.face < 0 && sought.n_crowded < 2)
+    {
+      // The likeliest tells how far to look.
+      add(query, place, likeliest(hits(place)));
+      sought.n_crowded = 2;
+      sought.n_hits = Sought::sought_again;
+    }
+    else
+      descend(query, sought);
+  }
+}
+
+// Too many leaves for all: the radius is taken for too large, then the group for too wide.
+template<int dim>
+void TreeSearch<dim>::find_boxes_in_a_crowd(const Query &query, std::span<const int> places)
+{
+  const bool is_first =
+      std::all_of(places.begin(), places.end(),
+                  [this](int place) { return block_[place].n_crowded == 0 && block_[place].face < 0; });
+  if (is_first)
+    for (const int place : places)
+    {
+      Sought &sought = block_[place];
+      sought.n_crowded = 1;
+      sought.radius *= 0.25;
+      sought.n_hits = Sought::sought_again;
+    }
+  else if (places.size() == 1)
+    descend(query, block_[places[0]]);
+  else
+  {
+    find_boxes(query, places.first(places.size() / 2));
+    find_boxes(query, places.subspan(places.size() / 2));
   }
 }
 
@@ -329,7 +373,7 @@ void TreeSearch<dim>::descend(const Query &query, Sought &sought)
         bound = squared_reach();
       },
       [](int, std::size_t) { return true; });
-  sought.n_hits = -1;
+  sought.n_hits = Sought::all_seen;
 }
 
 template<int dim>
@@ -340,12 +384,16 @@ void TreeSearch<dim>::finish(const Query &query, int place, Candidate &result)
   result = {found ? sought.face : -1, sought.xi, sought.squared_distance};
   near_.set_hint(sought.node, sought.face >= 0 ? static_cast<std::int64_t>(sought.slot) : -1);
   if (sought.n_hits < 0 || query.exclusions)
-    return;
+    return near_.forget(sought.node);
   const double radius = std::min(sought.bound() + sought.margin, sought.radius + usual_margin_) + faces_.motion();
-  near_.start(sought.node, sought.x.data(), radius);
   const auto bound = static_cast<float>(radius * radius);
-  for (const BoxHit &hit : hits(place).first(sought.n_hits))
-    if (hit.squared_distance <= bound)
+  const auto near = hits(place).first(sought.n_hits);
+  const auto is_listed = [bound](const BoxHit &hit) { return hit.squared_distance <= bound; };
+  if (std::count_if(near.begin(), near.end(), is_listed) > most_listed)
+    return near_.forget(sought.node);
+  near_.start(sought.node, sought.x.data(), radius);
+  for (const BoxHit &hit : near)
+    if (is_listed(hit))
       near_.add(hit.slot, hit.squared_distance);
 }
 
