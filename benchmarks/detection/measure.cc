@@ -149,8 +149,10 @@ private:
       for (int c = 0; c < dim; ++c)
         x.push_back(scene_.impactor.reference[static_cast<std::size_t>(node) * dim + c]);
     Scene part{scene_.surface, scene_.shape, test::cloud(dim, x), scene_.target, scene_.reach, scene_.distance};
+    const std::size_t before = heap_bytes();
     const auto method = make_own_method(part, "brute", true);
     const Phases phases = method->detect({part.impactor.reference, part.target.reference});
+    brute_bytes_ = static_cast<double>(heap_bytes() - before) / (part.impactor.n_nodes() + part.target.n_nodes());
     brute_ns_ = phases.query / static_cast<double>(nodes.size()) * 1e9;
     return method->distances();
   }
@@ -229,7 +231,8 @@ private:
   {
     json result = head("brute");
     result["build_ns"] = 0;
-    result["query_ns"] = result["total_ns"] = brute_ns_;
+    result["query_ns"] = result["total_ns"] = result["redetect_ns"] = brute_ns_;
+    result["bytes_per_node"] = brute_bytes_;
     result["wrong"] = 0;
     result["sampled_nodes"] = n_nodes;
     return result;
@@ -264,7 +267,7 @@ private:
   std::vector<Positions> positions_;
   double ns_ = 0;
   std::map<std::string, Samples> samples_;
-  double brute_ns_ = 0;
+  double brute_ns_ = 0, brute_bytes_ = 0;
 };
 } // namespace
 
