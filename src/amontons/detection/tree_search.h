@@ -1,0 +1,97 @@
+#pragma once
+#include "amontons/detection/box_tree.h"
+#include "amontons/detection/near_faces.h"
+#include "amontons/detection/normal_cones.h"
+#include "amontons/detection/search.h"
+#include "amontons/detection/sorted_faces.h"
+#include "amontons/surface/face_batch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace amontons
+{
+/// Search in a tree of boxes. Nodes are taken in blocks, so that many projections are made at once. Each node is sought
+/// within a radius, first that of a face known to be near or what its predecessors needed: where nothing is found in
+/// it, it grows up to w.
+template<int dim>
+class TreeSearch : public Search
+{
+public:
+  void fill(const Target &target, const Query &query) override;
+  void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) override;
+  void minima(const Target &target, const Query &query, Index node, double radius,
+              std::vector<Candidate> &result) override;
+
+private:
+  static constexpr int block_size = FaceBatch::capacity, group_size = 16, max_hits = 128;
+  static constexpr int most_listed = 24; ///< near faces kept for a node
+  static constexpr std::uint32_t no_slot = ~0U;
+  // What faces are listed beyond the closest one, in units of its shorter edge.
+  static constexpr double margin = 0.25;
+
+  /// A node being sought.
+  struct Sought
+  {
+    Index node = -1;
+    std::array<double, dim> x;
+    double radius = 0; ///< faces within it have been or are looked at
+    double w = 0;
+    std::uint32_t slot = no_slot; ///< closest so far
+    Index face = -1;
+    LocalPoint xi{0, 0};
+    double squared_distance = 0;
+    double margin = 0; ///< beyond the closest face
+    int n_hits = 0;    ///< in hits_; or one of the following
+    int n_crowded = 0; ///< how often there were too many boxes within the radius
+    static constexpr int all_seen = -1, sought_again = -2;
+    [[nodiscard]] double bound() const { return face < 0 ? w : std::min(w, std::sqrt(squared_distance)); }
+  };
+  struct PendingPair
+  {
+    int place; ///< in block_
+    std::uint32_t slot;
+  };
+  struct Batch
+  {
+    FaceBatch faces;
+    std::array<PendingPair, FaceBatch::capacity> pairs;
+  };
+
+  void order(const Target &target);
+  void refit();
+  void verify(const Query &query, std::span<const Index> nodes, std::span<Candidate> result);
+  void seek(const Query &query, std::span<const Index> nodes, std::span<Candidate> result);
+  void start(const Query &query, std::span<const Index> nodes);
+  void look_closer(const Query &query, std::span<const int> places);
+  void expect_alike(const Query &query, std::span<const Sought> block);
+  void find_boxes(const Query &query, std::span<const int> places);
+  void find_boxes_in_a_crowd(const Query &query, std::span<const int> places);
+  void descend(const Query &query, Sought &sought);
+  void finish(const Query &query, int place, Candidate &result);
+  void add(const Query &query, int place, std::uint32_t slot);
+  void project(Batch &batch);
+  void project_all();
+  void consider(Sought &sought, std::uint32_t slot, LocalPoint xi, double squared_distance);
+  [[nodiscard]] double shorter_edge(std::uint32_t slot) const;
+  [[nodiscard]] std::span<BoxHit> hits(int place) { return {hits_.data() + place * max_hits, max_hits}; }
+
+  BoxTree<dim> tree_;
+  SortedFaces<dim> faces_;
+  NearFaces<dim> near_;
+  const Surface *surface_ = nullptr;
+  double usual_radius_ = 0, usual_margin_ = 0; ///< of the last block
+  // Of the block being sought.
+  std::array<Sought, block_size> block_;
+  std::vector<BoxHit> hits_ = std::vector<BoxHit>(block_size * max_hits);
+  std::array<Batch, 2> batches_{Batch{FaceBatch(dim == 2 ? 2 : 3), {}}, Batch{FaceBatch(4), {}}};
+  typename BoxTree<dim>::Front front_;
+  std::vector<Index> unproven_;
+
+  NormalCones cones_;
+  bool cones_are_current_ = false;
+  std::size_t n_looked_at_ = 0; ///< faces, in the search for minima since the last fill
+};
+} // namespace amontons
