@@ -43,6 +43,26 @@ Problem loaded_slider(Strain strain, double length, double stress)
   return problem;
 }
 
+/// A slider with a rounded lower side: nodes close with friction all the while.
+Problem rounded_slider(Strain strain, double length, double stress)
+{
+  Blocks blocks(2);
+  blocks.add("base", length * Point(-2, -1, 0), length * Point(4, 1, 0), {20, 5, 0});
+  blocks.add("slider", length * Point(-0.81, 0, 0), length * Point(1.57, 1, 0), {13, 5, 0},
+             [=](const Point &x) { return Point(x[0], x[1] + (length - x[1]) * std::pow(x[0] / length, 2) / 8, 0); });
+  Problem problem(blocks, Kinematics::plane_strain, strain);
+  problem.elastic("base", stress, 0.3);
+  problem.elastic("slider", 2 * stress, 0.2);
+  problem.contact("slider_bottom", "base_top", 0.25);
+  problem.on("base_bottom").fix = {0, 1};
+  const std::string l = std::to_string(length);
+  problem.on("slider_top").displacement = {{0, expression(l + "*(0.01*t+0.012*max(2*t-1,0))")},
+                                           {1, expression(l + "*-0.08*min(2*t,1)")}};
+  problem.options.loading.increments = 6;
+  problem.options.loading.fixed = true;
+  return problem;
+}
+
 using Maker = Problem (*)(Strain, double, double);
 
 class Units : public testing::TestWithParam<std::tuple<Maker, Strain>>
@@ -56,7 +76,10 @@ TEST_P(Units, SameIterationsAndTheSameAnswerScaled)
   for (const auto &[length, stress] : {std::pair{1e-3, 1e6}, std::pair{1e6, 1e-12}}) // m, Pa; nm, N/nm^2
   {
     const Record other = make(strain, 10 * length, 2.1e5 * stress).converge();
-    EXPECT_EQ(other.iterations(), in_mm.iterations());
+    // Where nodes close one by one, round-off may decide which of two iterations is the last.
+    ASSERT_EQ(other.iterations().size(), in_mm.iterations().size());
+    for (std::size_t k = 0; k < in_mm.iterations().size(); ++k)
+      EXPECT_LE(std::abs(other.iterations()[k] - in_mm.iterations()[k]), make == &rounded_slider ? 1 : 0);
     ASSERT_EQ(other.states.size(), in_mm.states.size());
     std::vector<double> pressure = other.contact().pressure, traction = other.contact().traction,
                         displacement = other.state().displacement;
@@ -76,7 +99,7 @@ TEST_P(Units, SameIterationsAndTheSameAnswerScaled)
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Units,
-                         testing::Combine(testing::Values(&moved_slider, &loaded_slider),
+                         testing::Combine(testing::Values(&moved_slider, &loaded_slider, &rounded_slider),
                                           testing::Values(Strain::small, Strain::finite)));
 
 Problem slider_in_space()
@@ -95,14 +118,14 @@ Problem slider_in_space()
   return problem;
 }
 
-void expect_independence_of_augmentation(Problem problem)
+void expect_independence_of_augmentation(Problem problem, std::array<double, 2> factors = {1e-3, 1e3})
 {
   problem.options.loading.fixed = true;
   problem.options.solver.tolerance = 1e-10;
   const Record usual = problem.converge();
   EXPECT_GT(usual.contact().n_stick, 0);
   EXPECT_GT(usual.contact().n_slip, 0);
-  for (const double factor : {1e-3, 1e3})
+  for (const double factor : factors)
   {
     problem.options.contact[0].augmentation = factor;
     const Record other = problem.converge();
@@ -124,6 +147,13 @@ TEST(Augmentation, DoesNotChangeTheAnswerInThePlane)
 TEST(Augmentation, DoesNotChangeTheAnswerInFiniteStrain)
 {
   expect_independence_of_augmentation(moved_slider(Strain::finite, 1, 1));
+}
+
+TEST(Augmentation, DoesNotChangeTheAnswerWhereNodesClose)
+{
+  expect_independence_of_augmentation(rounded_slider(Strain::small, 1, 1));
+  // With 1000 r the first touch in finite strain does not converge.
+  expect_independence_of_augmentation(rounded_slider(Strain::finite, 1, 1), {1e-3, 1e2});
 }
 
 TEST(Augmentation, DoesNotChangeTheAnswerInSpace)

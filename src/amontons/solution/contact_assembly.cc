@@ -185,7 +185,10 @@ void ContactAssembly::add(const Work &work, std::span<const double> pending, Con
   for (int m = 0; m < pattern.n_multipliers; ++m)
   {
     out.constraint[pattern.multipliers[m]] = e.constraint[m];
-    out.constraint_norm2 += std::pow(contact.augmentation(work.node) * e.constraint[m], 2);
+    // -lambda / r and the like are forces over r; the rest are lengths.
+    const double force_per_length =
+        e.constraint_by_multiplier(m, m) != 0 ? contact.augmentation(work.node) : contact.stiffness(work.node);
+    out.constraint_norm2 += std::pow(force_per_length * e.constraint[m], 2);
   }
   if (moves)
   {

@@ -150,7 +150,7 @@ Eigen::Vector3d ContactInterface::relative(Index i, std::span<const double> disp
   return out;
 }
 
-bool ContactInterface::begin_increment(std::span<const double> start, std::span<const double> multipliers)
+bool ContactInterface::begin_increment(std::span<const double> start)
 {
   const auto same_face = [](const Pair &a, const Pair &b) { return a.face == b.face; };
   const bool restore =
@@ -176,7 +176,7 @@ bool ContactInterface::begin_increment(std::span<const double> start, std::span<
     const double gap = linearise_with_origin(i, start, start).gap;
     start_gap_[i] = gap;
     const double size = std::pow(areas_[i], 1.0 / (dim_ - 1));
-    has_origin_[i] = options_.tied || multipliers[multiplier(i)] < 0 || gap <= touching * size;
+    has_origin_[i] = options_.tied || status_[i] != ContactStatus::open || gap <= touching * size;
   }
   return restore;
 }
@@ -263,6 +263,13 @@ void ContactInterface::find_closing_origin(Index i, const ContactLinearisation &
   }
   slip_origin_[i] = closing_origin_shape(dim_, axisymmetric_, *analytic_, {x.data(), d}, {x.data() + d, d},
                                          {x_start.data(), d}, {x_start.data() + d, d});
+}
+
+void ContactInterface::set_trial(std::span<const double> displacement, std::span<const double> start)
+{
+  for (Index i = 0; i < n_nodes(); ++i)
+    if (paired(i) && !has_origin_[i])
+      find_closing_origin(i, linearise_with_origin(i, displacement, start), displacement, start);
 }
 
 ContactLinearisation ContactInterface::linearise(Index i, std::span<const double> displacement,

@@ -29,6 +29,8 @@ public:
   [[nodiscard]] Index n_nodes() const { return impactor_->n_nodes(); }
   [[nodiscard]] std::span<const double> areas() const { return areas_; }
   [[nodiscard]] double augmentation(Index i) const { return augmentation_[i]; }
+  /// The part of r that is not the user's: makes a force of a gap, for norms.
+  [[nodiscard]] double stiffness(Index i) const { return augmentation_[i] / options_.augmentation; }
   [[nodiscard]] bool paired(Index i) const { return analytic_ || pairing_[i].face >= 0; }
   [[nodiscard]] std::span<const Pair> pairing() const { return pairing_; }
   [[nodiscard]] DetectionReport detection_report() const;
@@ -53,10 +55,14 @@ public:
 
   /// Takes note of the state at an increment's beginning: from where slip counts. @return whether pairs that a failed
   /// attempt had changed were put back
-  bool begin_increment(std::span<const double> start, std::span<const double> multipliers);
+  bool begin_increment(std::span<const double> start);
 
-  /// Gap and slip of node i. Where the node was open at the beginning and is closed now for the first time, the slip's
-  /// origin is the point where its gap vanished on the way (THEORY: the instant of closing).
+  /// Takes the state to which the increment leads with the statuses of its beginning: nodes that are open at the
+  /// beginning take the origin of their slip, should they close, from the way to it (THEORY: the instant of closing):
+  /// where the gap vanished, or its end. The first call within an increment counts.
+  void set_trial(std::span<const double> displacement, std::span<const double> start);
+
+  /// Gap and slip of node i. A node that is closed before there is a trial state takes the present one for it.
   ContactLinearisation linearise(Index i, std::span<const double> displacement, std::span<const double> start);
 
   /// What sigma decides; stick where the sides are tied.

@@ -22,6 +22,8 @@ constexpr int max_cycles = 6;
 constexpr int damped_after_cycle = 3;
 /// A node that changed its status so often within an increment is named.
 constexpr int named_flips = 3;
+/// Part of the tolerance that a linear solve may leave, and the loosest one.
+constexpr double linear_share = 0.3, loosest = 0.1;
 /// Of the internal forces, over what the displacement would meet if nodes moved alone.
 constexpr double round_off = 1e-13;
 
@@ -103,6 +105,7 @@ Newton::Newton(Model &model, Counters &counters, Timers &timers, std::function<v
   , form_(make_form(model))
   , contacts_(model, *form_)
   , free_motions_(model)
+  , predictor_(model)
 {
   free_motions_.check_restrained();
   if (free_motions_.any())
@@ -117,7 +120,7 @@ void Newton::begin_increment(const State &state, double reach)
   reach_ = reach;
   bool restored = false;
   for (ContactInterface &contact : model_.contacts())
-    restored |= contact.begin_increment(state.displacement, state.multipliers);
+    restored |= contact.begin_increment(state.displacement);
   if (restored)
     contacts_.rebuild_pattern();
 }
@@ -145,10 +148,7 @@ void Newton::prepare_matrix(const State &state, double time)
 {
   const auto scope = timers_.measure("bulk_assembly");
   model_.update_layout(state);
-  const bool rebuilt = form_->prepare();
-  if (rebuilt)
-    ++counters_.n_pattern_builds;
-  bool fresh = rebuilt;
+  bool fresh = form_->prepare();
   if (!tangent_assembled_ || !model_.bodies().tangent_is_constant())
   {
     if (!model_.bodies().assemble_tangent(model_.mesh_part(state.displacement), time))
@@ -271,17 +271,35 @@ void Newton::restrain(Evaluation &at, const State &state, const State &start, do
     at = evaluate(state, start, time, decision.closed, first);
 }
 
-std::vector<double> Newton::solve_linear(const Evaluation &at)
+/// Of the right side's forces. As far as the residual that the change of statuses and the bodies' nonlinearity will
+/// leave anyway (Eisenstat, Walker 1996), and whole once nothing but the linear system is left.
+double Newton::linear_tolerance(const Evaluation &at, int iteration, double last_norm, bool settled) const
+{
+  const double force =
+      std::sqrt(norm2({at.rhs.data(), static_cast<std::size_t>(model_.layout().n_displacement_unknowns())}));
+  // Where the forces are not known yet, the right side is what is needed to move the supports' neighbours alone.
+  if (iteration == 1)
+    return model_.options().solver.tolerance;
+  const double enough = linear_share * model_.options().solver.tolerance * at.scale / std::max(force, at.norm);
+  if (settled)
+    return enough;
+  return std::max(enough, std::min(loosest, 0.9 * std::pow(at.norm / last_norm, 2)));
+}
+
+std::vector<double> Newton::solve_linear(const Evaluation &at, double tolerance)
 {
   std::vector<double> step(at.rhs.size());
   {
     const auto scope = timers_.measure("linear_setup");
     form_->factorize();
-    ++counters_.n_factorizations;
   }
   const auto scope = timers_.measure("linear_solve");
-  form_->solve(at.rhs, step, 0);
-  ++counters_.n_linear_iterations;
+  form_->solve(at.rhs, step, tolerance);
+  const FormCounters cost = form_->counters();
+  counters_.n_pattern_builds = cost.n_pattern_builds;
+  counters_.n_factorizations = cost.n_factorizations;
+  counters_.n_preconditioner_setups = cost.n_preconditioner_setups;
+  counters_.n_linear_iterations = cost.n_iterations;
   for (const double x : step)
     if (!std::isfinite(x))
       throw NumericalFailure("the tangent matrix is singular");
@@ -370,25 +388,36 @@ IterationReport Newton::compare(const Iterate &before, const Iterate &after)
   return report;
 }
 
-void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome)
+void Newton::set_trial(const State &trial, const State &start)
+{
+  for (ContactInterface &contact : model_.contacts())
+    contact.set_trial(trial.displacement, start.displacement);
+}
+
+void Newton::iterate(Iterate &now, const State &start, double time, bool guessed, NewtonOutcome &outcome)
 {
   const SolverOptions &options = model_.options().solver;
   std::map<std::uint64_t, int> seen;
   int n_cycles = 0;
   int n_damped = 0;
+  double last_norm = now.at.norm;
+  bool settled = false;
   for (int iteration = 1; now.at.norm > options.tolerance * now.at.scale || now.at.pending_motion > 0; ++iteration)
   {
     if (iteration > options.max_iterations)
       throw NumericalFailure("no convergence in " + std::to_string(options.max_iterations) + " iterations");
     contacts_.remember_slip();
-    restrain(now.at, now.state, start, time, iteration == 1);
-    const std::vector<double> increment = solve_linear(now.at);
+    restrain(now.at, now.state, start, time, iteration == 1 && !guessed);
+    const auto n_before = form_->counters().n_iterations;
+    const std::vector<double> increment = solve_linear(now.at, linear_tolerance(now.at, iteration, last_norm, settled));
     outcome.n_iterations = iteration;
-    ++outcome.n_linear_iterations;
+    outcome.n_linear_iterations += static_cast<int>(form_->counters().n_iterations - n_before);
     ++counters_.n_newton_iterations;
 
     double share = 1;
     Iterate next = step_from(now, start, time, increment, n_damped > 0, share);
+    if (iteration == 1 && !guessed)
+      set_trial(next.state, start);
     IterationReport report = compare(now, next);
     report.iteration = iteration;
     report.step_length = share;
@@ -399,6 +428,8 @@ void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcom
     place->second = iteration;
     n_cycles += circle;
     report_(report);
+    last_norm = now.at.norm;
+    settled = model_.small_strain() && report.n_status_changes == 0;
     now = std::move(next);
     if (n_cycles > max_cycles)
       throw NumericalFailure("statuses or faces turn in a circle" +
@@ -406,25 +437,40 @@ void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcom
   }
 }
 
-NewtonOutcome Newton::solve(State &state, double time)
+Newton::Iterate Newton::begin(const State &start, double time, const State *guess)
+{
+  form_->set_held_modes({});
+  contacts_.forget_slip();
+  Iterate out;
+  out.state = guess ? *guess : start;
+  detect(out.state);
+  out.at = evaluate(out.state, start, time, {}, !guess);
+  if (guess && out.at.valid)
+    set_trial(out.state, start);
+  return out;
+}
+
+NewtonOutcome Newton::solve(State &state, double from, double to)
 {
   NewtonOutcome outcome;
   const State start = state;
-  Iterate now;
-  now.state = state;
   try
   {
-    form_->set_held_modes({});
-    contacts_.forget_slip();
-    detect(now.state);
-    now.at = evaluate(now.state, start, time, {}, true);
+    std::optional<State> guess = predictor_.guess(start, from, to);
+    Iterate now = begin(start, to, guess ? &*guess : nullptr);
+    if (guess && !now.at.valid)
+    {
+      guess.reset();
+      now = begin(start, to, nullptr);
+    }
     if (!now.at.valid)
       throw NumericalFailure("a cell is inside out at the beginning of the increment");
     n_flips_.assign(now.at.status.size(), 0);
-    iterate(now, start, time, outcome);
+    iterate(now, start, to, guess.has_value(), outcome);
     outcome.converged = true;
     residual_ = now.at.residual;
     state = std::move(now.state);
+    predictor_.remember(start, from, to);
   }
   catch (const NumericalFailure &failure)
   {

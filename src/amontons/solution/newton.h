@@ -5,6 +5,7 @@
 #include "amontons/solution/free_motions.h"
 #include "amontons/solution/model.h"
 #include "amontons/solution/observer.h"
+#include "amontons/solution/predictor.h"
 
 #include <functional>
 #include <string>
@@ -30,8 +31,8 @@ public:
   Newton(Model &model, Counters &counters, Timers &timers, std::function<void(const IterationReport &)> report);
   ~Newton();
 
-  /// Moves `state` from its equilibrium to the one at `time`. On failure `state` is left as it was.
-  NewtonOutcome solve(State &state, double time);
+  /// Moves `state` from its equilibrium at time `from` to the one at `to`. On failure `state` is left as it was.
+  NewtonOutcome solve(State &state, double from, double to);
 
   /// Residual at a converged state, nodal: reactions at held components. [n_nodal]
   [[nodiscard]] const std::vector<double> &residual() const { return residual_; }
@@ -47,9 +48,13 @@ private:
   void compute_residual(Evaluation &out, const State &state, double time, const ContactContribution &contact) const;
   bool detect(State &state);
   void prepare_matrix(const State &state, double time);
-  [[nodiscard]] std::vector<double> solve_linear(const Evaluation &at);
+  [[nodiscard]] std::vector<double> solve_linear(const Evaluation &at, double tolerance);
+  [[nodiscard]] double linear_tolerance(const Evaluation &at, int iteration, double last_norm, bool settled) const;
+  void set_trial(const State &trial, const State &start);
+  /// The state and its evaluation from which an increment's iterations start.
+  [[nodiscard]] Iterate begin(const State &start, double time, const State *guess);
   /// Newton's iterations from `now` to the solution, which replaces it. @throws NumericalFailure with the cause
-  void iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome);
+  void iterate(Iterate &now, const State &start, double time, bool guessed, NewtonOutcome &outcome);
   [[nodiscard]] Iterate step_from(const Iterate &from, const State &start, double time,
                                   std::span<const double> increment, bool damp, double &share);
   [[nodiscard]] IterationReport compare(const Iterate &before, const Iterate &after);
@@ -65,6 +70,7 @@ private:
   std::unique_ptr<SystemForm> form_;
   ContactAssembly contacts_;
   FreeMotions free_motions_;
+  Predictor predictor_;
   double reach_ = 0;
   bool tangent_assembled_ = false;
   std::vector<double> residual_;

@@ -145,7 +145,7 @@ public:
       tell(&Observer::begin_increment, increment, to, to - time);
       State next = state_;
       newton_->begin_increment(next, reach(time, to));
-      const NewtonOutcome outcome = newton_->solve(next, to);
+      const NewtonOutcome outcome = newton_->solve(next, time, to);
       const IncrementReport report{to, to - time, outcome.n_iterations, outcome.n_linear_iterations, cutbacks};
       if (!outcome.converged)
       {

@@ -1,0 +1,99 @@
+#include "amontons/solution/predictor.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace amontons
+{
+namespace
+{
+/// Cosine between two changes of the loads from which on the second goes on with the first.
+constexpr double same_direction = 0.98;
+/// How much the ratios of prescribed displacements and of forces may differ, over the larger.
+constexpr double same_ratio = 0.05;
+
+struct Change
+{
+  bool moves = false;
+  bool goes_on = true;
+  double ratio = 1; ///< of the second change to the first
+};
+
+Change compare(std::span<const double> start, std::span<const double> now, std::span<const double> next)
+{
+  double first2 = 0, second2 = 0, product = 0;
+  for (std::size_t i = 0; i < now.size(); ++i)
+  {
+    const double first = now[i] - start[i], second = next[i] - now[i];
+    first2 += first * first;
+    second2 += second * second;
+    product += first * second;
+  }
+  if (first2 == 0 && second2 == 0)
+    return {};
+  if (first2 == 0 || second2 == 0 || product < same_direction * std::sqrt(first2) * std::sqrt(second2))
+    return {true, false, 1};
+  return {true, true, product / first2};
+}
+} // namespace
+
+void Predictor::remember(const State &start, double start_time, double end_time)
+{
+  start_ = start;
+  start_time_ = start_time;
+  end_time_ = end_time;
+}
+
+Predictor::Loads Predictor::loads(const State &state, double time)
+{
+  Loads out;
+  out.displacement = model_.prescribe(model_.initial_state(), time, 1).displacement;
+  std::vector<double> internal(out.displacement.size(), 0.0);
+  out.force.assign(internal.size(), 0.0);
+  (void)model_.bodies().forces(model_.mesh_part(state.displacement), time, model_.mesh_part(internal),
+                               model_.mesh_part(out.force));
+  std::vector<double> rigid(static_cast<std::size_t>(model_.rigid().n_unknowns()), 0.0);
+  model_.rigid().add_forces(time, rigid);
+  out.force.insert(out.force.end(), rigid.begin(), rigid.end());
+  return out;
+}
+
+std::optional<double> Predictor::load_ratio(const State &now, double from, double to)
+{
+  const Loads start = loads(now, start_time_), middle = loads(now, from), end = loads(now, to);
+  const Change motion = compare(start.displacement, middle.displacement, end.displacement);
+  const Change force = compare(start.force, middle.force, end.force);
+  if (!motion.goes_on || !force.goes_on || (!motion.moves && !force.moves))
+    return {};
+  if (motion.moves && force.moves &&
+      std::abs(motion.ratio - force.ratio) > same_ratio * std::max(motion.ratio, force.ratio))
+    return {};
+  return motion.moves ? motion.ratio : force.ratio;
+}
+
+std::optional<State> Predictor::guess(const State &now, double from, double to)
+{
+  if (!start_ || from != end_time_)
+    return {};
+  const std::optional<double> ratio = load_ratio(now, from, to);
+  if (!ratio)
+    return {};
+  State out = now;
+  for (std::size_t i = 0; i < out.displacement.size(); ++i)
+    out.displacement[i] += *ratio * (now.displacement[i] - start_->displacement[i]);
+  for (std::size_t i = 0; i < out.multipliers.size(); ++i)
+    out.multipliers[i] += *ratio * (now.multipliers[i] - start_->multipliers[i]);
+  for (std::size_t b = 0; b < out.rigid.size(); ++b)
+  {
+    const RigidState &before = start_->rigid[b];
+    RigidState &body = out.rigid[b];
+    body.translation += *ratio * (body.translation - before.translation);
+    body.rotation_vector += *ratio * (body.rotation_vector - before.rotation_vector);
+    Eigen::AngleAxisd turn(body.rotation * before.rotation.transpose());
+    turn.angle() *= *ratio;
+    body.rotation = turn * body.rotation;
+  }
+  return model_.prescribe(std::move(out), to, 1);
+}
+} // namespace amontons

@@ -1,0 +1,38 @@
+#pragma once
+#include "amontons/solution/model.h"
+
+#include <optional>
+#include <vector>
+
+namespace amontons
+{
+/// Guess of an increment's end: displacements, rigid motions and multipliers go on as in the last increment, as far as
+/// the loads do. There is no guess where the loads turn to another direction.
+class Predictor
+{
+public:
+  explicit Predictor(Model &model)
+    : model_(model)
+  {
+  }
+
+  /// An increment has converged; `start` is where it began.
+  void remember(const State &start, double start_time, double end_time);
+
+  /// @param now the state at time `from`, the last one remembered
+  [[nodiscard]] std::optional<State> guess(const State &now, double from, double to);
+
+private:
+  struct Loads
+  {
+    std::vector<double> displacement, force;
+  };
+  [[nodiscard]] Loads loads(const State &state, double time);
+  /// The factor by which the loads' change from `from` to `to` is the one from start to `from`, if it is one.
+  [[nodiscard]] std::optional<double> load_ratio(const State &now, double from, double to);
+
+  Model &model_;
+  std::optional<State> start_;
+  double start_time_ = 0, end_time_ = 0;
+};
+} // namespace amontons
