@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Mesh and deck of a curved block on a flat one, hexahedra that do not match.
 
-The lower block is 2 x 2 x 1; the upper, 1.6 x 1.6 x 0.8, has the lower face z = (x^2 + y^2)/16. The upper block's top goes
-down by 0.02 in each increment, or in all where they are several.
+The lower block is 2 x 2 x 1; the upper, 1.6 x 1.6 x 0.8, has the lower face z = (x^2 + y^2)/16. The upper block's top
+goes down by 0.02.
 
     curved_blocks.py DIR --cells N [--friction MU] [--increments K] [--tied] [--linear SOLVER] [--slide S]
 
@@ -66,12 +66,11 @@ def curved_blocks(cells):
     return mesh
 
 
-def deck(options):
-    contact = "tied: true" if options.tied else (
-        f"friction: {{law: coulomb, coefficient: {options.friction}}}" if options.friction > 0
-        else "friction: {law: none}")
-    slide = f"{options.slide}*t" if options.slide else "0"
-    return f"""title: A curved block pressed on a flat one
+def write_deck(path, friction=0, increments=1, end=1, slide=0, tied=False, linear="auto"):
+    """A deck beside blocks.msh: down by 0.02 and along x by `slide` in t from 0 to 1, run to `end`. Returns its path."""
+    contact = "tied: true" if tied else (f"friction: {{law: coulomb, coefficient: {friction}}}" if friction > 0
+                                         else "friction: {law: none}")
+    path.write_text(f"""title: A curved block pressed on a flat one
 mesh: {{file: blocks.msh, kinematics: 3d}}
 bodies:
   - {{name: lower, region: lower, material: {{law: linear-elastic, young: 1000, poisson: 0.3}}}}
@@ -80,12 +79,13 @@ contact:
   - {{name: interface, impactor: upper_bottom, target: lower_top, {contact}}}
 boundary:
   - {{region: lower_bottom, fix: [x, y, z]}}
-  - {{region: upper_top, displacement: {{x: "{slide}", y: 0, z: "-0.02*t"}}}}
-loading: {{end: 1, increments: {options.increments}, fixed: true}}
+  - {{region: upper_top, displacement: {{x: "{slide}*t", y: 0, z: "-0.02*t"}}}}
+loading: {{end: {end}, increments: {increments}, fixed: true}}
 strain: small
-solver: {{linear: {options.linear}}}
+solver: {{linear: {linear}}}
 output: {{fields: [displacement]}}
-"""
+""")
+    return path
 
 
 def main():
@@ -97,11 +97,11 @@ def main():
     parser.add_argument("--slide", type=float, default=0)
     parser.add_argument("--tied", action="store_true")
     parser.add_argument("--linear", default="auto")
-    options = parser.parse_args()
-    options.folder.mkdir(parents=True, exist_ok=True)
-    mesh = options.folder / "blocks.msh"
-    curved_blocks(options.cells).write(mesh)
-    (options.folder / "deck.yaml").write_text(deck(options))
+    options = vars(parser.parse_args())
+    folder = options.pop("folder")
+    folder.mkdir(parents=True, exist_ok=True)
+    curved_blocks(options.pop("cells")).write(folder / "blocks.msh")
+    write_deck(folder / "deck.yaml", **options)
 
 
 if __name__ == "__main__":
