@@ -9,7 +9,7 @@ EXACT = ["exact", "brute", "embree", "cgal"]
 ALL = EXACT + ["nearest-node", "nanoflann"]
 WITHOUT_CGAL = ["exact", "brute", "embree", "nearest-node", "nanoflann"]  # CGAL would take as long as all others
 # The nearest-node rule's cells are as wide as the longest edge asks for: on strongly graded surfaces a cell holds a
-# share of all nodes, and the time goes with the square of their number. It is shown there at 1e5 nodes only.
+# share of all nodes. It is shown there at 1e5 nodes only.
 WITHOUT_CELLS = EXACT + ["nanoflann"]
 SURFACES_2D = ["circle", "shuffled", "graded-50", "graded-500", "flat", "flat-45", "thin"]
 SURFACES_3D = ["torus", "shuffled", "graded-50", "graded-500", "aspect-20", "flat", "flat-45", "thin"]

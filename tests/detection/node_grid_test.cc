@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 namespace amontons::test
@@ -22,7 +23,7 @@ std::vector<Eigen::Vector3d> nodes_of(const Surface &surface)
 std::set<Index> visited(const NodeGrid &grid, const Eigen::Vector3d &x)
 {
   std::set<Index> nodes;
-  grid.visit_near(x,
+  grid.visit_near(x, std::numeric_limits<double>::infinity(),
                   [&](std::span<const NodeGrid::Node> some)
                   {
                     for (const NodeGrid::Node &node : some)

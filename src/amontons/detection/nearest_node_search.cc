@@ -22,8 +22,9 @@ public:
     nearest_.resize(result.size());
     {
       const auto time = timers.measure("nearest");
+      const NodeGrid::Node *nearby = nullptr;
       for (const Index node : query.nodes)
-        nearest_[node] = nearest(target.surface(), query, node);
+        nearest_[node] = nearest(target.surface(), query, node, nearby);
     }
     const auto time = timers.measure("projection");
     project(target, query, result);
@@ -43,26 +44,34 @@ public:
 
 private:
   // The target node within w, of those with a face that the impactor node sees; equally near ones go by their ids.
-  [[nodiscard]] Index nearest(const Surface &surface, const Query &query, Index node) const
+  // @param nearby a node that may be near, or null: the impactor nodes' neighbours follow one another mostly
+  [[nodiscard]] Index nearest(const Surface &surface, const Query &query, Index node,
+                              const NodeGrid::Node *&nearby) const
   {
     const Vector3d x = point_of(query.x, surface.dim, node);
     if (query.exclusions)
       return nearest_by_rule(surface, query, node, x);
     double best = query.w * query.w;
     const NodeGrid::Node *result = nullptr;
+    if (nearby && (x - nearby->x).squaredNorm() <= best)
+    {
+      result = nearby;
+      best = (x - nearby->x).squaredNorm();
+    }
     bool tied = false;
-    grid_.visit_near(x,
+    grid_.visit_near(x, best,
                      [&](std::span<const NodeGrid::Node> nodes)
                      {
                        for (const NodeGrid::Node &other : nodes) // no branch: it could not be foreseen
                        {
                          const double squared_distance = (x - other.x).squaredNorm();
                          const bool nearer = squared_distance < best;
-                         tied |= squared_distance == best;
+                         tied |= squared_distance == best && &other != result;
                          best = nearer ? squared_distance : best;
                          result = nearer ? &other : result;
                        }
                      });
+    nearby = result;
     if (tied)
       return nearest_by_rule(surface, query, node, x);
     return result ? result->node : -1;
@@ -82,7 +91,7 @@ private:
       return squared_distance < best ||
              (squared_distance == best && (result < 0 || surface.node_ids[other] < surface.node_ids[result]));
     };
-    grid_.visit_near(x,
+    grid_.visit_near(x, best,
                      [&](std::span<const NodeGrid::Node> nodes)
                      {
                        for (const NodeGrid::Node &other : nodes)

@@ -89,5 +89,21 @@ void NodeGrid::sort(const Target &target)
   nodes_.resize(cells_.size());
   for (std::size_t i = 0; i < cells_.size(); ++i)
     nodes_[next_[cells_[i]]++] = {target.node(static_cast<Index>(i)), static_cast<Index>(i)};
+  make_boxes();
+}
+
+void NodeGrid::make_boxes()
+{
+  boxes_.resize((nodes_.size() + nodes_per_box - 1) / nodes_per_box);
+  for (std::size_t first = 0; first < nodes_.size(); first += nodes_per_box)
+  {
+    Box box{nodes_[first].x, nodes_[first].x};
+    for (std::size_t i = first + 1; i < std::min(first + nodes_per_box, nodes_.size()); ++i)
+    {
+      box.low = box.low.cwiseMin(nodes_[i].x);
+      box.high = box.high.cwiseMax(nodes_[i].x);
+    }
+    boxes_[first / nodes_per_box] = box;
+  }
 }
 } // namespace amontons

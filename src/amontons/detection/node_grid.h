@@ -29,14 +29,22 @@ public:
 
   /// Calls `visit` with the nodes, some at a time, of the cell that holds x and of the cells on its side of it, 3 of
   /// the 8 neighbours in 2D and 7 of the 26 in 3D: they hold every node within w of x.
+  /// @param squared_bound nodes farther than this may be left out; read anew after each call, so that the visitor may
+  ///        shrink it
   template<typename Visitor>
-  void visit_near(const Eigen::Vector3d &x, Visitor &&visit) const;
+  void visit_near(const Eigen::Vector3d &x, const double &squared_bound, Visitor &&visit) const;
 
 private:
   static constexpr std::int64_t cells_per_block = 64;
+  static constexpr Index nodes_per_box = 16;
+  struct Box
+  {
+    Eigen::Vector3d low, high;
+  };
   using Cell = std::array<std::int64_t, 3>;
   void size_cells(const Target &target, double w);
   void sort(const Target &target);
+  void make_boxes();
   [[nodiscard]] double position(const Eigen::Vector3d &x, int axis) const
   {
     return (x[axis] - low_[axis]) * per_cell_[axis];
@@ -83,14 +91,16 @@ private:
   std::vector<Entry> table_; ///< open addressing, a power of two long, at most half full
   int hash_shift_ = 0;
   std::size_t n_blocks_ = 0;
-  std::vector<Index> cell_begin_;    ///< of all cells of all blocks, in nodes_
-  std::vector<Node> nodes_;          ///< cell by cell
+  std::vector<Index> cell_begin_; ///< of all cells of all blocks, in nodes_
+  std::vector<Node> nodes_;       ///< cell by cell
+  /// Of as many nodes in turn: where edges differ much a cell holds many nodes, of which few are near.
+  std::vector<Box> boxes_;
   std::vector<std::uint32_t> cells_; ///< of each node; kept for their memory
   std::vector<Index> next_;
 };
 
 template<typename Visitor>
-void NodeGrid::visit_near(const Eigen::Vector3d &x, Visitor &&visit) const
+void NodeGrid::visit_near(const Eigen::Vector3d &x, const double &squared_bound, Visitor &&visit) const
 {
   Cell first, last;
   for (int c = 0; c < 3; ++c)
@@ -110,8 +120,16 @@ void NodeGrid::visit_near(const Eigen::Vector3d &x, Visitor &&visit) const
         if (entry.block < 0)
           continue;
         const Index *begin = cell_begin_.data() + entry.block * cells_per_block + place_in_block({i, j, k});
-        if (const Index from = begin[0], to = begin[end - i + 1]; from < to)
+        const Index from = begin[0], to = begin[end - i + 1];
+        if (to - from <= nodes_per_box)
+        {
           visit(std::span<const Node>(nodes_.data() + from, nodes_.data() + to));
+          continue;
+        }
+        for (Index box = from / nodes_per_box; box * nodes_per_box < to; ++box)
+          if ((boxes_[box].low - x).cwiseMax(x - boxes_[box].high).cwiseMax(0.0).squaredNorm() <= squared_bound)
+            visit(std::span<const Node>(nodes_.data() + std::max(from, box * nodes_per_box),
+                                        nodes_.data() + std::min(to, (box + 1) * nodes_per_box)));
       }
 }
 } // namespace amontons
