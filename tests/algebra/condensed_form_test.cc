@@ -225,6 +225,30 @@ TEST_P(CondensedFormTest, HeldModes)
   }
 }
 
+/// A motion that the body does not resist: the matrix is singular without the border.
+TEST_P(CondensedFormTest, HeldModeOfASingularBody)
+{
+  const auto n = static_cast<Eigen::Index>(bodies_[0].n_rows());
+  Eigen::Map<Eigen::MatrixXd> k(bodies_[0].values.data(), n, n);
+  Eigen::VectorXd motion = make_.numbers(n, 1).normalized();
+  motion[2 * dim() - 1] = 0; // held
+  motion.normalize();
+  const Eigen::MatrixXd others = Eigen::MatrixXd::Identity(n, n) - motion * motion.transpose();
+  k = (others * k * others).eval();
+  std::vector<double> mode(static_cast<std::size_t>(layout_.n_displacement_unknowns()), 0.0);
+  for (Index nodal = 0; nodal < n; ++nodal)
+    for (const Term &term : layout_.terms(nodal))
+      mode[term.unknown] = motion[nodal];
+  set_constraints({pair(0, 4, 0), pair(1, 5, 1), pair(2, 6, 2), pair(3, 7, 3)});
+  for (SystemForm *form : forms())
+    EXPECT_TRUE(form->set_held_modes({mode}));
+  for (SystemForm *form : forms())
+    if (form->prepare())
+      form->update_subdomains();
+  update_rigid_block();
+  expect_same_step({make_.open(), make_.open(), make_.open(), make_.open()});
+}
+
 TEST_P(CondensedFormTest, Multigrid)
 {
   std::vector<double> reference;
