@@ -133,10 +133,12 @@ def steps(results):
 
 
 def slope(points):
-    """Of the straight line through the points in logarithms (least squares)."""
+    """Of the straight line through the points in logarithms (least squares), as text; "-" for a single point."""
+    if len(points) < 2:
+        return "-"
     x, y = [math.log(p[0]) for p in points], [math.log(p[1]) for p in points]
     mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
-    return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x)**2 for a in x)
+    return f"{sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x)**2 for a in x):.2f}"
 
 
 def seconds(row):
@@ -155,9 +157,19 @@ def gain(results):
             cells.append(f"{seconds(row):.3g}")
         rows.append(cells + [f"{brute['total_ns'] / results.get(('wavy', 'segments', n), name)['total_ns']:.3g}"
                              for name in ("exact", "nearest-node")])
-    slopes = ["slope"] + [f"{slope(values):.2f}" for values in points.values()] + ["", ""]
+    slopes = ["slope"] + [slope(values) for values in points.values()] + ["", ""]
     return markdown(["nodes on each side", "brute force, s", "exact, s", "nearest-node, s", "gain of exact",
                      "gain of nearest-node"], rows + [slopes])
+
+
+def run(results):
+    """What the figures come from."""
+    processor = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8"))
+    configurations = results.configurations()
+    most = max(n for _, _, n in configurations)
+    rounds = min(row["repeats"] for row in results.rows if "repeats" in row)
+    return (f"{len(configurations)} configurations with up to {count(most)} nodes on each side, the median of at least {rounds} "
+            f"round{'s' if rounds > 1 else ''} each; processor: {processor[1] if processor else 'unknown'}.")
 
 
 def claims(results):
@@ -284,8 +296,8 @@ def main():
     results = Results(json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8")))
     page = FOLDER / "detection.md"
     text = page.read_text(encoding="utf-8")
-    for name, table in {"claims": claims, "totals": totals, "queries": queries, "wrong answers": wrong, "memory": memory,
-                        "steps": steps, "gain": gain}.items():
+    for name, table in {"run": run, "claims": claims, "totals": totals, "queries": queries, "wrong answers": wrong,
+                        "memory": memory, "steps": steps, "gain": gain}.items():
         begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
         if begin not in text or end not in text:
             sys.exit(f"{page}: no {begin} ... {end}")

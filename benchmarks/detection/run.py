@@ -21,6 +21,8 @@ def quick_plan():
     for shape in ("quadrilaterals", "triangles"):
         for surface in ("wavy", "torus", "shuffled", "graded-50", "graded-500", "aspect-20"):
             yield surface, shape, 5e4, ALL, 2
+    for n_nodes in (1e3, 1e4):
+        yield "wavy", "segments", n_nodes, ALL, 3
     for surface in ("wavy", "graded-500", "flat-45"):
         yield surface, "segments", 1e5, WITHOUT_CELLS if surface == "graded-500" else ALL, 3
 
