@@ -148,7 +148,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"solid_friction", [] { return blocks_in_contact(3, Strain::small, 0.3); }},
                     Case{"solid_finite", [] { return blocks_in_contact(3, Strain::finite, 0.2); }},
                     Case{"held_motions", [] { return block_on_ground(Kinematics::plane_stress, 0); }},
-                    Case{"held_motions_friction", [] { return block_on_ground(Kinematics::plane_strain, 0.3); }},
                     Case{"axisymmetric", [] { return block_on_ground(Kinematics::axisymmetric, 0.2); }},
                     Case{"groove", block_in_groove}, Case{"rigid_impactor", rigid_impactor},
                     Case{"plates", stack_of_plates}),
