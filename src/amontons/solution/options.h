@@ -35,7 +35,7 @@ enum class MultiplierForm
 struct SolverOptions
 {
   LinearSolverType linear = LinearSolverType::automatic;
-  MultiplierForm multipliers = MultiplierForm::coupled;
+  MultiplierForm multipliers = MultiplierForm::condensed;
   double tolerance = 1e-8; ///< residual force over the forces present
   int max_iterations = 25; ///< of Newton, per increment
 };
