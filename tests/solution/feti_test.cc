@@ -10,6 +10,8 @@ namespace
 Record solve_by(Problem problem, LinearSolverType linear)
 {
   problem.options.solver.linear = linear;
+  problem.options.solver.multipliers =
+      linear == LinearSolverType::feti ? MultiplierForm::condensed : MultiplierForm::coupled;
   return problem.converge();
 }
 
@@ -61,13 +63,64 @@ TEST(Feti, PlaneBlocks)
 {
   for (const double mu : {0.0, 0.3})
     for (const Kinematics kinematics : {Kinematics::plane_strain, Kinematics::plane_stress})
-      expect_same(two_blocks(2, mu, kinematics, 20));
+    {
+      Problem problem = two_blocks(2, mu, kinematics, 20);
+      problem.options.loading.increments = 1;
+      expect_same(problem);
+    }
 }
 
 TEST(Feti, Blocks)
 {
   for (const double mu : {0.0, 0.3})
     expect_same(two_blocks(3, mu, Kinematics::three_dimensional, 6));
+}
+
+/// Contact alone holds the body, which has to travel to where it touches; motions without load are held in the mean.
+TEST(Feti, BodyThatTravelsToWhereItTouches)
+{
+  for (const Kinematics kinematics : {Kinematics::plane_strain, Kinematics::axisymmetric})
+    for (const double mu : {0.0, 0.3})
+    {
+      const bool axisymmetric = kinematics == Kinematics::axisymmetric;
+      Blocks blocks(2);
+      blocks.add("body", {axisymmetric ? 0. : -1., 0.3, 0}, {axisymmetric ? 1. : 2., 1, 0},
+                 {axisymmetric ? 15 : 30, 15, 0},
+                 [](const Point &x) { return Point(x[0], x[1] + 0.1 * x[0] * x[0] * (1.3 - x[1]), 0); });
+      Problem problem(blocks, kinematics);
+      problem.elastic("body");
+      problem.rigid("ground", ground(2));
+      problem.contact("body_bottom", "ground", mu);
+      problem.on("body_top").traction[1] = expression("-0.01*t");
+      expect_same(problem);
+    }
+}
+
+/// A rigid body under force: its unknowns are those of a subdomain without stiffness.
+TEST(Feti, RigidBodyUnderForce)
+{
+  Blocks blocks(2);
+  blocks.add("block", {-1, 0, 0}, {2, 1, 0}, {40, 20, 0});
+  blocks.add_line("punch", {{-0.5, 1.3, 0}, {-0.4, 1.1, 0}, {0.4, 1.1, 0}, {0.5, 1.3, 0}}, 2);
+  Problem problem(blocks, Kinematics::plane_strain);
+  problem.elastic("block");
+  problem.rigid("punch");
+  problem.contact("block_top", "punch", 0.2);
+  problem.on("block_bottom").fix = {0, 1};
+  problem.on("punch").force[1] = expression("-0.02*t");
+  expect_same(problem);
+}
+
+TEST(Feti, IsRefusedInFiniteStrain)
+{
+  Blocks blocks(2);
+  blocks.add("body", {0, 0, 0}, {1, 1, 0}, {2, 2, 0});
+  Problem problem(blocks, Kinematics::plane_strain, Strain::finite);
+  problem.elastic("body");
+  problem.on("body_bottom").fix = {0, 1};
+  problem.options.solver.linear = LinearSolverType::feti;
+  problem.options.solver.multipliers = MultiplierForm::condensed;
+  EXPECT_THROW((void)problem.solve(), UserError);
 }
 } // namespace
 } // namespace amontons::test

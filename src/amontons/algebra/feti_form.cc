@@ -69,20 +69,25 @@ void FetiForm::update_constraint(std::size_t k, const ConstraintValues &values)
 void FetiForm::append_row(FetiContactRows &out, const ConstraintPattern &pattern, const Eigen::VectorXd &row,
                           const Eigen::VectorXd &force, double spring) const
 {
-  for (const bool forces : {false, true})
-  {
-    std::vector<FetiRows::Entry> entries;
-    for (int k = 0; k < pattern.n_nodal; ++k)
+  std::array<std::vector<FetiRows::Entry>, 2> entries;
+  for (int k = 0; k < pattern.n_nodal; ++k)
+    for (const bool forces : {false, true})
       if (const double coefficient = (forces ? force : row)[k]; coefficient != 0)
-        dual_->interface().append(pattern.nodal[k], coefficient, entries);
-    if (entries.empty())
-      throw NumericalFailure("the tangent matrix is singular: a contact row acts on nothing");
-    if (spring != 0)
-      entries.emplace_back(dual_->interface().n_columns() + static_cast<Index>(out.springs.size()), -1);
-    (forces ? out.forces : out.rows).push_back(entries);
-  }
+        dual_->interface().append(pattern.nodal[k], coefficient, entries[forces]);
+  const bool on_nothing = entries[0].empty() || entries[1].empty();
+  if (on_nothing && spring != 0) // between components that are held
+    return;
+  if (on_nothing)
+    throw NumericalFailure("the tangent matrix is singular: a contact row acts on nothing");
   if (spring != 0)
+  {
+    const Index column = dual_->interface().n_columns() + static_cast<Index>(out.springs.size());
+    for (auto &side : entries)
+      side.emplace_back(column, -1);
     out.springs.push_back(spring);
+  }
+  out.rows.push_back(entries[0]);
+  out.forces.push_back(entries[1]);
 }
 
 void FetiForm::append_dense_block(FetiContactRows &out, std::size_t block) const
