@@ -24,6 +24,8 @@ constexpr int damped_after_cycle = 3;
 constexpr int named_flips = 3;
 /// Part of the tolerance that a linear solve may leave, and the loosest one.
 constexpr double linear_share = 0.3, loosest = 0.1;
+/// The same where prescribed motion is still to come.
+constexpr double first_share = 1e-3;
 /// Of the internal forces, over what the displacement would meet if nodes moved alone.
 constexpr double round_off = 1e-13;
 
@@ -273,15 +275,18 @@ void Newton::restrain(Evaluation &at, const State &state, const State &start, do
 
 /// Of the right side's forces. As far as the residual that the change of statuses and the bodies' nonlinearity will
 /// leave anyway (Eisenstat, Walker 1996), and whole once nothing but the linear system is left.
-double Newton::linear_tolerance(const Evaluation &at, int iteration, double last_norm, bool settled) const
+/// @param trial the solution tells nodes that close with friction where their slip starts
+double Newton::linear_tolerance(const Evaluation &at, double last_norm, bool settled, bool trial) const
 {
-  const double force =
-      std::sqrt(norm2({at.rhs.data(), static_cast<std::size_t>(model_.layout().n_displacement_unknowns())}));
-  // Where the forces are not known yet, the right side is what is needed to move the supports' neighbours alone.
-  if (iteration == 1)
-    return model_.options().solver.tolerance;
-  const double enough = linear_share * model_.options().solver.tolerance * at.scale / std::max(force, at.norm);
-  if (settled)
+  const double tolerance = linear_share * model_.options().solver.tolerance;
+  const auto n = static_cast<std::size_t>(model_.layout().n_displacement_unknowns());
+  const double force = std::max(std::sqrt(norm2({at.rhs.data(), n})), at.norm);
+  // While the prescribed motion is to come, the right side is what it takes to move the supports' neighbours alone, and
+  // the scale of forces is not known.
+  if (at.pending_motion > 0)
+    return settled || trial ? tolerance : first_share;
+  const double enough = tolerance * at.scale / force;
+  if (settled || trial)
     return enough;
   return std::max(enough, std::min(loosest, 0.9 * std::pow(at.norm / last_norm, 2)));
 }
@@ -401,7 +406,10 @@ void Newton::iterate(Iterate &now, const State &start, double time, bool guessed
   int n_cycles = 0;
   int n_damped = 0;
   double last_norm = now.at.norm;
-  bool settled = false;
+  const auto contacts = std::span(std::as_const(model_).contacts());
+  bool settled = std::all_of(contacts.begin(), contacts.end(), [](const auto &c) { return c.options().tied; });
+  const bool has_friction =
+      std::any_of(contacts.begin(), contacts.end(), [](const auto &c) { return c.options().friction_coefficient > 0; });
   for (int iteration = 1; now.at.norm > options.tolerance * now.at.scale || now.at.pending_motion > 0; ++iteration)
   {
     if (iteration > options.max_iterations)
@@ -409,7 +417,8 @@ void Newton::iterate(Iterate &now, const State &start, double time, bool guessed
     contacts_.remember_slip();
     restrain(now.at, now.state, start, time, iteration == 1 && !guessed);
     const auto n_before = form_->counters().n_iterations;
-    const std::vector<double> increment = solve_linear(now.at, linear_tolerance(now.at, iteration, last_norm, settled));
+    const std::vector<double> increment =
+        solve_linear(now.at, linear_tolerance(now.at, last_norm, settled, iteration == 1 && !guessed && has_friction));
     outcome.n_iterations = iteration;
     outcome.n_linear_iterations += static_cast<int>(form_->counters().n_iterations - n_before);
     ++counters_.n_newton_iterations;

@@ -49,7 +49,7 @@ private:
   bool detect(State &state);
   void prepare_matrix(const State &state, double time);
   [[nodiscard]] std::vector<double> solve_linear(const Evaluation &at, double tolerance);
-  [[nodiscard]] double linear_tolerance(const Evaluation &at, int iteration, double last_norm, bool settled) const;
+  [[nodiscard]] double linear_tolerance(const Evaluation &at, double last_norm, bool settled, bool trial) const;
   void set_trial(const State &trial, const State &start);
   /// The state and its evaluation from which an increment's iterations start.
   [[nodiscard]] Iterate begin(const State &start, double time, const State *guess);
