@@ -260,7 +260,7 @@ TEST_P(FetiTest, DirectionsOfFormerSolvesServeAgain)
   EXPECT_LT(difference(rhs), 1e-9);
   const std::int64_t first = feti_->counters().n_iterations;
   EXPECT_LT(difference(rhs), 1e-9);
-  EXPECT_LT(feti_->counters().n_iterations - first, first / 2);
+  EXPECT_LE(3 * (feti_->counters().n_iterations - first), 2 * first);
   EXPECT_EQ(feti_->counters().n_preconditioner_setups, 1);
 }
 
