@@ -152,41 +152,56 @@ void expect_all_boxes_in_reach(int n)
       all[c + dim] = std::max(all[c + dim], boxes[i][c + dim]);
     }
   BoxTree<dim> tree;
-  tree.order_by(centres);
+  tree.order_by(centres, n);
   tree.refit(all, [&](std::size_t slot) { return boxes[tree.order()[slot]]; });
+  constexpr int n_points = 5;
   typename BoxTree<dim>::Front front;
-  std::vector<BoxHit> hits(static_cast<std::size_t>(n));
+  std::vector<BoxHit> hits(static_cast<std::size_t>(n) * n_points);
   int n_needed = 0, n_found = 0;
-  for (int trial = 0; trial < 200; ++trial)
+  for (int trial = 0; trial < 50; ++trial)
   {
-    const auto &near = boxes[trial * 7919 % n];
-    std::array<double, dim> x;
-    typename BoxTree<dim>::Box group;
-    for (int c = 0; c < dim; ++c)
-    {
-      x[c] = near[c] + 0.01 * std::sin(trial + c);
-      group[c] = x[c] - 0.003;
-      group[c + dim] = x[c] + 0.002;
-    }
+    std::array<std::array<double, dim>, n_points> points;
     const double bound = 1e-4 * (trial % 5);
-    ASSERT_TRUE(tree.collect(group, bound, front));
-    const int n_hits = tree.scan(front, x.data(), bound, hits);
-    std::set<Index> found, visited;
-    for (int i = 0; i < n_hits; ++i)
-      found.insert(tree.order()[hits[i].slot]);
-    tree.visit_within(
-        x.data(), bound, [&](Index slot) { visited.insert(tree.order()[slot]); },
-        [](int, std::size_t) { return true; });
-    EXPECT_EQ(found, visited);
-    n_found += n_hits;
-    for (Index f = 0; f < n; ++f)
-      if (squared_distance<dim>(boxes[f], x.data()) <= bound)
-      {
-        ++n_needed;
-        EXPECT_TRUE(found.contains(f)) << f;
-      }
+    for (int i = 0; i < n_points; ++i)
+    {
+      const auto &near = boxes[trial * 7919 % n];
+      for (int c = 0; c < dim; ++c)
+        points[i][c] = near[c] + 0.01 * std::sin(trial + c + i);
+      tree.set_point(front, i, points[i].data());
+    }
+    ASSERT_TRUE(tree.collect(front, n_points, bound));
+    std::array<BoxHit *, BoxTree<dim>::Front::most_points> room{};
+    std::array<int, BoxTree<dim>::Front::most_points> n_hits;
+    std::array<std::uint32_t, BoxTree<dim>::Front::most_points> likeliest;
+    for (int i = 0; i < n_points; ++i)
+    {
+      tree.set_bound(front, i, bound / (1 + i));
+      room[i] = hits.data() + static_cast<std::ptrdiff_t>(i) * n;
+    }
+    tree.scan(front, room.data(), n, n_hits.data());
+    tree.likeliest(front, likeliest.data());
+    for (int i = 0; i < n_points; ++i)
+    {
+      std::set<Index> found, visited;
+      for (int k = 0; k < n_hits[i]; ++k)
+        found.insert(tree.order()[room[i][k].slot]);
+      const double own_bound = bound / (1 + i);
+      tree.visit_within(
+          points[i].data(), own_bound, [&](Index slot) { visited.insert(tree.order()[slot]); },
+          [](int, std::size_t) { return true; });
+      EXPECT_EQ(found, visited);
+      EXPECT_EQ(likeliest[i] == no_slot, found.empty());
+      EXPECT_TRUE(likeliest[i] == no_slot || found.contains(tree.order()[likeliest[i]]));
+      n_found += n_hits[i];
+      for (Index f = 0; f < n; ++f)
+        if (squared_distance<dim>(boxes[f], points[i].data()) <= own_bound)
+        {
+          ++n_needed;
+          EXPECT_TRUE(found.contains(f)) << f;
+        }
+    }
   }
-  EXPECT_GE(n_needed, 200 / (n < 50 ? 3 : 1));
+  EXPECT_GE(n_needed, 200 / (n < 50 ? 4 : 1));
   EXPECT_LT(n_found, 1.2 * n_needed + 20);
 }
 

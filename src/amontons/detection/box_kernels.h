@@ -23,14 +23,15 @@ struct BoxTreeView
   int top_level;
 };
 
-/// The leaves near a group of points, found once for all of them, so that the way down from the root is shared.
+/// The boxes near a group of points, found once for all of them; each box is then held against all points at once.
 template<int dim>
 struct BoxFront
 {
-  static constexpr int capacity = 64;
-  BoxNode<dim> boxes[capacity / BoxNode<dim>::width];
-  std::uint32_t leaves[capacity];
-  int n_leaves;
+  static constexpr int most_points = 16, capacity = 512;
+  alignas(64) float x[dim][most_points];
+  alignas(64) float squared_bounds[most_points]; ///< negative: nothing is within it
+  std::uint32_t slots[capacity];                 ///< the boxes
+  int n_slots;
 };
 
 /// A box in reach of a point.
@@ -38,19 +39,23 @@ struct BoxHit
 {
   std::uint32_t slot;
   float squared_distance;
-  float score; ///< low where the point is near the box's centre, too
 };
+constexpr std::uint32_t no_slot = ~0U;
 
 template<int dim>
 struct BoxKernels
 {
-  /// Collects the leaves within the bound of the box [low, high]. @return false if they are too many for a front
+  /// Collects the boxes within the bound of the box [low, high]. @return false if they are too many for a front
   bool (*collect)(const BoxTreeView<dim> &tree, const float *low, const float *high, float squared_bound,
                   BoxFront<dim> &front);
-  /// Boxes of the front's leaves within the bound of x. @return how many; more than `capacity`: not all are in hits,
-  /// but the one of lowest score is
-  int (*scan)(const BoxTreeView<dim> &tree, const BoxFront<dim> &front, const float *x, float squared_bound,
-              BoxHit *hits, int capacity);
+  /// For each point the box that probably holds the face closest to it: near, and its centre not far either; no_slot
+  /// where none of the front is within its bound.
+  void (*likeliest)(const BoxTreeView<dim> &tree, const BoxFront<dim> &front, std::uint32_t *slots);
+  /// Boxes of the front within each point's bound.
+  /// @param hits [most_points], for each point room for `capacity` @param n_hits how many; where more than `capacity`,
+  ///        the first of them are in hits
+  void (*scan)(const BoxTreeView<dim> &tree, const BoxFront<dim> &front, BoxHit *const *hits, int capacity,
+               int *n_hits);
   /// Positions along the Hilbert curve (hilbert.h) of n cells, n a multiple of 16, `bits` per axis.
   /// @param cells [dim][n], overwritten
   void (*hilbert)(std::uint32_t *const *cells, int n, int bits, std::uint64_t *positions);

@@ -8,9 +8,14 @@
 namespace amontons
 {
 template<int dim>
-void BoxTree<dim>::order_by(std::span<const std::array<double, static_cast<std::size_t>(dim)>> centres)
+void BoxTree<dim>::order_by(std::span<const std::array<double, static_cast<std::size_t>(dim)>> centres, Index n_faces,
+                            Index run)
 {
-  order_ = curve_order<dim>(centres);
+  order_.clear();
+  order_.reserve(static_cast<std::size_t>(n_faces));
+  for (const Index first : curve_order<dim>(centres))
+    for (Index face = first * run; face < std::min((first + 1) * run, n_faces); ++face)
+      order_.push_back(face);
   level_begin_.assign(1, 0);
   for (std::size_t count = order_.size(); level_begin_.size() == 1 || count > 1;)
   {
@@ -88,21 +93,33 @@ typename BoxTree<dim>::FloatPoint BoxTree<dim>::relative(const double *x) const
 }
 
 template<int dim>
-bool BoxTree<dim>::collect(const Box &group, double squared_bound, Front &front) const
+void BoxTree<dim>::set_point(Front &front, int i, const double *x) const
 {
-  front.n_leaves = 0;
-  if (order_.empty())
-    return true;
-  const FloatPoint low = relative(group.data()), high = relative(group.data() + dim);
-  return box_kernels<dim>().collect(view(), low.data(), high.data(), rounded_up(squared_bound), front);
+  const FloatPoint point = relative(x);
+  for (int c = 0; c < dim; ++c)
+    front.x[c][i] = point[c];
+  front.squared_bounds[i] = -1;
 }
 
 template<int dim>
-int BoxTree<dim>::scan(const Front &front, const double *x, double squared_bound, std::span<BoxHit> hits) const
+bool BoxTree<dim>::collect(Front &front, int n_points, double squared_bound) const
 {
-  const FloatPoint point = relative(x);
-  return box_kernels<dim>().scan(view(), front, point.data(), rounded_up(squared_bound), hits.data(),
-                                 static_cast<int>(hits.size()));
+  front.n_slots = 0;
+  if (order_.empty())
+    return true;
+  FloatPoint low, high;
+  for (int c = 0; c < dim; ++c)
+  {
+    low[c] = high[c] = front.x[c][0];
+    for (int i = 1; i < n_points; ++i)
+    {
+      low[c] = std::min(low[c], front.x[c][i]);
+      high[c] = std::max(high[c], front.x[c][i]);
+    }
+    std::fill(front.x[c] + n_points, front.x[c] + Front::most_points, 0.0F);
+  }
+  std::fill(front.squared_bounds + n_points, front.squared_bounds + Front::most_points, -1.0F);
+  return box_kernels<dim>().collect(view(), low.data(), high.data(), rounded_up(squared_bound), front);
 }
 
 template class BoxTree<2>;

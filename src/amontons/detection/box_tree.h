@@ -23,8 +23,10 @@ public:
   using Box = std::array<double, static_cast<std::size_t>(2 * dim)>; ///< lower corner, then upper corner
   using Front = BoxFront<dim>;
 
-  /// Sets the order: the faces with the given centres along the curve.
-  void order_by(std::span<const std::array<double, static_cast<std::size_t>(dim)>> centres);
+  /// Sets the order: runs of faces that follow one another, along the curve.
+  /// @param centres of the runs @param run faces in each, but for the last, which may have fewer
+  void order_by(std::span<const std::array<double, static_cast<std::size_t>(dim)>> centres, Index n_faces,
+                Index run = 1);
 
   /// Faces in the order of the curve: the face in each slot.
   [[nodiscard]] const std::vector<Index> &order() const { return order_; }
@@ -40,12 +42,27 @@ public:
   /// Of the faces' boxes, over all axes: the harmonic mean, so that small ones count.
   [[nodiscard]] double mean_extent() const { return mean_extent_; }
 
-  /// Collects the leaves that come within the bound of a box. @return false if they are too many for a front
-  bool collect(const Box &group, double squared_bound, Front &front) const;
+  /// Sets a point of a front, without a bound.
+  void set_point(Front &front, int i, const double *x) const;
+  /// Limits what likeliest() and scan() look at for a point.
+  static void set_bound(Front &front, int i, double squared_bound)
+  {
+    front.squared_bounds[i] = rounded_up(squared_bound);
+  }
 
-  /// Faces of a front within the bound of x, which was within the front's box and bound.
-  /// @return how many; where more than `hits` holds not all are in it, but the one of lowest score is
-  int scan(const Front &front, const double *x, double squared_bound, std::span<BoxHit> hits) const;
+  /// Collects the faces that come within the bound of the box about the front's first n points; what the points look at
+  /// must be within it. @return false if they are too many for a front
+  bool collect(Front &front, int n_points, double squared_bound) const;
+
+  /// For each point the face that is probably the closest; no_slot without one within its bound.
+  /// @param slots [most_points]
+  void likeliest(const Front &front, std::uint32_t *slots) const { box_kernels<dim>().likeliest(view(), front, slots); }
+
+  /// Faces within each point's bound: see BoxKernels.
+  void scan(const Front &front, BoxHit *const *hits, int capacity, int *n_hits) const
+  {
+    box_kernels<dim>().scan(view(), front, hits, capacity, n_hits);
+  }
 
   /// Visits the faces whose boxes come within the bound of x, the nearer first.
   /// @param squared_bound read anew after each visit, so that the visitor may shrink it

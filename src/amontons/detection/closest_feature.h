@@ -5,6 +5,10 @@
 
 namespace amontons
 {
+/// How far past the target's ends it extends where the user does not say, in units of the last face's extent in that
+/// direction.
+constexpr double default_extension = 0.1;
+
 /// A closest point of the target: a face and the local point on it, the border included.
 struct Candidate
 {

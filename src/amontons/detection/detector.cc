@@ -17,8 +17,6 @@ namespace
 {
 using Eigen::Vector3d;
 
-// Default extension past the target's ends, in units of the last face's extent in that direction.
-constexpr double default_extension = 0.1;
 // Cosine above which the impactor's and the face's normals point the same way.
 constexpr double same_way = 0.5;
 // Depth below which a node lies on the surface, in units of w.
@@ -168,7 +166,12 @@ const Pairing &SurfaceDetector::detect(std::span<const double> impactor_x, std::
   }
   if (exclusions_)
     exclusions_->move_to(target_x);
-  query_ = {impactor_x, nodes_, distance_.w, options_.extension, exclusions_ ? &*exclusions_ : nullptr};
+  query_ = {impactor_x,
+            nodes_,
+            distance_.w,
+            options_.extension,
+            exclusions_.has_value(),
+            exclusions_ ? &*exclusions_ : nullptr};
   {
     const auto time = timers_.measure("fill");
     search_->fill(target_, query_);

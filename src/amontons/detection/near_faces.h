@@ -19,7 +19,7 @@ public:
   struct Entry
   {
     std::uint32_t slot;
-    float lower; ///< not more than its distance was
+    float squared_distance; ///< not more than it was, but for round-off
   };
 
   void resize(std::size_t n_nodes)
@@ -85,7 +85,7 @@ public:
   }
   void add(std::uint32_t slot, float squared_distance)
   {
-    entries_.push_back({slot, std::sqrt(squared_distance) * (1 - 1e-5F)});
+    entries_.push_back({slot, squared_distance});
     ++nodes_[last_].n;
   }
 

@@ -17,7 +17,8 @@ struct Query
   std::span<const double> x;    ///< all nodes, [n_nodes * dim]
   std::span<const Index> nodes; ///< the nodes inside the target's box grown by w
   double w = 0;
-  std::optional<double> extension;        ///< past the target's ends, where the user gave it
+  std::optional<double> extension; ///< past the target's ends, where the user gave it
+  bool ends_anywhere = false; ///< self-contact: what a node sees may end at any edge, not at the target's ends alone
   const Exclusions *exclusions = nullptr; ///< self-contact: the faces that a node does not see; null: it sees all
 
   [[nodiscard]] bool sees(Index node, Index face) const { return Sight{exclusions, node}.sees(face); }

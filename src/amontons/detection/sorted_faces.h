@@ -9,51 +9,65 @@
 
 namespace amontons
 {
-/// The target's faces in a given order (each has a slot), their nodes numbered as they are first met there, so that
-/// faces which lie near one another lie so in memory too, however the mesh is numbered.
+/// The target's faces in a given order (each has a slot), where they are now, and how far they have moved. Nothing is
+/// copied: the surface is numbered so that what lies near is near in memory (renumbered_detector.h).
 template<int dim>
 class SortedFaces
 {
 public:
   using Box = std::array<double, static_cast<std::size_t>(2 * dim)>; ///< lower corner, then upper corner
 
-  /// @param order the face in each slot
-  void number(const Surface &surface, const std::vector<Index> &order);
+  /// @param order the face in each slot; it and the surface must outlive their use
+  void number(const Surface &surface, std::span<const Index> order);
 
-  /// @param x current coordinates of the surface's nodes, [n_nodes * dim]
+  /// @param x current coordinates of the surface's nodes, [n_nodes * dim]; they must outlive their use
   void move_to(std::span<const double> x);
   /// From here on motion() counts.
-  void mark()
-  {
-    marked_ = x_;
-    motion_ = 0;
-  }
+  void mark();
   /// Largest distance of a node from where it was at mark(); infinite before.
   [[nodiscard]] double motion() const { return motion_; }
 
   [[nodiscard]] int n_nodes(std::uint32_t slot) const
   {
-    return dim == 2 ? 2 : max_nodes_ == 4 && nodes_[slot * 4 + 3] >= 0 ? 4 : 3;
+    const Index *range = face_offsets_ + order_[slot];
+    return range[1] - range[0];
   }
   /// Its nodes' positions; beyond n_nodes the pointers are those of the first.
   [[nodiscard]] std::array<const double *, 4> corners(std::uint32_t slot) const
   {
-    const Index *nodes = nodes_.data() + static_cast<std::size_t>(slot) * max_nodes_;
+    const Index *range = face_offsets_ + order_[slot];
+    const Index *nodes = face_nodes_ + range[0];
+    const int n = dim == 2 ? 2 : range[1] - range[0];
     std::array<const double *, 4> result;
     for (int k = 0; k < 4; ++k)
-      result[k] = x_.data() + static_cast<std::ptrdiff_t>(k < max_nodes_ && nodes[k] >= 0 ? nodes[k] : nodes[0]) * dim;
+      result[k] = x_ + static_cast<std::ptrdiff_t>(nodes[k < n ? k : 0]) * dim;
     return result;
   }
-  void prefetch(std::uint32_t slot) const { __builtin_prefetch(nodes_.data() + std::size_t{slot} * max_nodes_); }
   [[nodiscard]] FaceCoordinates face(std::uint32_t slot) const;
-  [[nodiscard]] Box box(std::uint32_t slot) const;
+  [[nodiscard]] Box box(std::uint32_t slot) const
+  {
+    const auto from = corners(slot);
+    Box result;
+    for (int c = 0; c < dim; ++c)
+    {
+      double low = from[0][c], high = low;
+      for (int k = 1; k < (dim == 2 ? 2 : 4); ++k)
+      {
+        low = from[k][c] < low ? from[k][c] : low;
+        high = from[k][c] > high ? from[k][c] : high;
+      }
+      result[c] = low;
+      result[c + dim] = high;
+    }
+    return result;
+  }
   [[nodiscard]] const Box &box_of_all() const { return all_; }
 
 private:
-  int max_nodes_ = 2;
-  std::vector<Index> nodes_;    ///< [n_faces * max_nodes_], -1 beyond a face's nodes
-  std::vector<Index> original_; ///< node on the surface
-  std::vector<double> x_, marked_;
+  const Index *order_ = nullptr, *face_offsets_ = nullptr, *face_nodes_ = nullptr;
+  const double *x_ = nullptr;
+  std::size_t n_coordinates_ = 0;
+  std::vector<double> marked_;
   double motion_ = 0;
   Box all_{};
 };

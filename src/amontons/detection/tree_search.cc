@@ -24,20 +24,34 @@ void TreeSearch<dim>::fill(const Target &target, const Query &)
   }
 }
 
+// Faces that follow one another on the surface mostly lie side by side: runs of them are sorted, not each, unless that
+// makes poor leaves.
 template<int dim>
 void TreeSearch<dim>::order(const Target &target)
 {
   const auto x = target.coordinates();
-  std::vector<std::array<double, dim>> centres(surface_->face_ids.size());
-  for (std::size_t f = 0; f < centres.size(); ++f)
+  const Index n_faces = surface_->n_faces();
+  double squared_steps = 0, squared_edges = 0;
+  const auto corner = [&](Index f, int k)
   {
-    const auto nodes = surface_->face(static_cast<Index>(f));
-    const double share = 1.0 / static_cast<double>(nodes.size());
-    for (const Index node : nodes)
-      for (int c = 0; c < dim; ++c)
-        centres[f][c] += share * x[static_cast<std::size_t>(node) * dim + c];
+    return Eigen::Map<const Eigen::Matrix<double, dim, 1>>(x.data() +
+                                                           static_cast<std::ptrdiff_t>(surface_->face(f)[k]) * dim);
+  };
+  constexpr Index sample = 16;
+  for (Index f = 0; f + 1 < n_faces; f += sample)
+  {
+    squared_steps += (corner(f + 1, 0) - corner(f, 0)).squaredNorm();
+    squared_edges += (corner(f, 1) - corner(f, 0)).squaredNorm();
   }
-  tree_.order_by(centres);
+  const Index run = squared_steps <= 4 * squared_edges ? most_in_run : 1;
+  std::vector<std::array<double, dim>> centres((static_cast<std::size_t>(n_faces) + run - 1) / run);
+  for (std::size_t i = 0; i < centres.size(); ++i)
+  {
+    const Index first = static_cast<Index>(i) * run, last = std::min(first + run, n_faces) - 1;
+    for (int c = 0; c < dim; ++c)
+      centres[i][c] = 0.5 * (corner(first, 0)[c] + corner(last, dim - 1)[c]);
+  }
+  tree_.order_by(centres, n_faces, run);
   faces_.number(*surface_, tree_.order());
   near_ = {};
 }
@@ -58,11 +72,15 @@ void TreeSearch<dim>::closest(const Target &, const Query &query, std::span<Cand
   usual_radius_ = query.w;
   usual_margin_ = 0;
   unproven_.clear();
-  for (std::size_t first = 0; first < query.nodes.size(); first += block_size)
-    verify(query, query.nodes.subspan(first, std::min<std::size_t>(block_size, query.nodes.size() - first)), result);
-  for (std::size_t first = 0; first < unproven_.size(); first += block_size)
-    seek(query, std::span(unproven_).subspan(first, std::min<std::size_t>(block_size, unproven_.size() - first)),
-         result);
+  const auto in_blocks = [&](std::span<const Index> nodes, auto look)
+  {
+    for (std::size_t first = 0; first < nodes.size(); first += block_size)
+      (this->*look)(query, nodes.subspan(first, std::min<std::size_t>(block_size, nodes.size() - first)), result);
+  };
+  if (!near_.knows_faces())
+    return in_blocks(query.nodes, &TreeSearch::seek);
+  in_blocks(query.nodes, &TreeSearch::verify);
+  in_blocks(unproven_, &TreeSearch::seek);
 }
 
 // Takes the closest of the faces known to be near, where that is proven to be the closest of all.
@@ -90,9 +108,13 @@ void TreeSearch<dim>::verify(const Query &query, std::span<const Index> nodes, s
     if (sought.n_hits < 0 || !(bound < near_.clearance(sought.node, motion[place])))
       sought.n_hits = Sought::all_seen;
     else
-      for (const auto &[slot, lower] : near_.faces(sought.node))
-        if (slot != sought.slot && lower - motion[place] <= bound)
+    {
+      const auto reach = static_cast<float>((bound + motion[place]) * (bound + motion[place])) * (1 + 1e-5F);
+      const std::uint32_t known = sought.slot;
+      for (const auto &[slot, squared_distance] : near_.faces(sought.node))
+        if (slot != known && squared_distance <= reach)
           add(query, place, slot);
+    }
   }
   project_all();
   for (int place = 0; place < n; ++place)
@@ -202,8 +224,9 @@ void TreeSearch<dim>::minima(const Target &target, const Query &query, Index nod
         if (closest.squared_distance <= radius * radius)
           result.push_back({face, closest.xi, closest.squared_distance});
       },
-      [&](int level, std::size_t index)
-      { return !cones_are_current_ || cones_.may_hold_minimum(level, index, x, query.extension); });
+      [&](int level, std::size_t index) {
+        return !cones_are_current_ || cones_.may_hold_minimum(level, index, x, query.extension, query.ends_anywhere);
+      });
 }
 
 template class TreeSearch<2>;

@@ -26,9 +26,10 @@ public:
               std::vector<Candidate> &result) override;
 
 private:
-  static constexpr int block_size = FaceBatch::capacity, group_size = 16, max_hits = 128;
+  static constexpr int block_size = FaceBatch::capacity, max_hits = 64;
+  static constexpr int group_size = BoxFront<dim>::most_points;
+  static constexpr Index most_in_run = 4;
   static constexpr int most_listed = 24; ///< near faces kept for a node
-  static constexpr std::uint32_t no_slot = ~0U;
   // What faces are listed beyond the closest one, in units of its shorter edge.
   static constexpr double margin = 0.25;
 
@@ -44,10 +45,18 @@ private:
     LocalPoint xi{0, 0};
     double squared_distance = 0;
     double margin = 0; ///< beyond the closest face
-    int n_hits = 0;    ///< in hits_; or one of the following
+    double reach = 0;  ///< of the hits
+    int n_hits = 0;    ///< or one of the following
     int n_crowded = 0; ///< how often there were too many boxes within the radius
     static constexpr int all_seen = -1, sought_again = -2;
     [[nodiscard]] double bound() const { return face < 0 ? w : std::min(w, std::sqrt(squared_distance)); }
+  };
+  /// Nodes that are looked for together.
+  struct Group
+  {
+    std::array<int, group_size> places; ///< in block_
+    int n_places = 0;
+    BoxFront<dim> front;
   };
   struct PendingPair
   {
@@ -65,10 +74,14 @@ private:
   void verify(const Query &query, std::span<const Index> nodes, std::span<Candidate> result);
   void seek(const Query &query, std::span<const Index> nodes, std::span<Candidate> result);
   void start(const Query &query, std::span<const Index> nodes);
-  void look_closer(const Query &query, std::span<const int> places);
+  [[nodiscard]] std::span<BoxHit> hits(int place) { return std::span(hits_).subspan(place * max_hits, max_hits); }
+  void find_fronts(const Query &query, std::span<const int> places);
+  void find_fronts_in_a_crowd(const Query &query, std::span<const int> places);
+  void guess(const Query &query);
+  void look_around(const Query &query);
+  void set_reach(const Query &query, Sought &sought) const;
+  [[nodiscard]] bool is_done(Sought &sought, double w) const;
   void expect_alike(const Query &query, std::span<const Sought> block);
-  void find_boxes(const Query &query, std::span<const int> places);
-  void find_boxes_in_a_crowd(const Query &query, std::span<const int> places);
   void descend(const Query &query, Sought &sought);
   void finish(const Query &query, int place, Candidate &result);
   void add(const Query &query, int place, std::uint32_t slot);
@@ -76,7 +89,6 @@ private:
   void project_all();
   void consider(Sought &sought, std::uint32_t slot, LocalPoint xi, double squared_distance);
   [[nodiscard]] double shorter_edge(std::uint32_t slot) const;
-  [[nodiscard]] std::span<BoxHit> hits(int place) { return {hits_.data() + place * max_hits, max_hits}; }
 
   BoxTree<dim> tree_;
   SortedFaces<dim> faces_;
@@ -87,7 +99,8 @@ private:
   std::array<Sought, block_size> block_;
   std::vector<BoxHit> hits_ = std::vector<BoxHit>(block_size * max_hits);
   std::array<Batch, 2> batches_{Batch{FaceBatch(dim == 2 ? 2 : 3), {}}, Batch{FaceBatch(4), {}}};
-  typename BoxTree<dim>::Front front_;
+  std::vector<Group> groups_ = std::vector<Group>(block_size);
+  int n_groups_ = 0;
   std::vector<Index> unproven_;
 
   NormalCones cones_;

@@ -4,16 +4,6 @@
 
 namespace amontons
 {
-namespace
-{
-// Of a node's boxes the one that probably holds its closest face.
-std::uint32_t likeliest(std::span<const BoxHit> hits)
-{
-  return std::min_element(hits.begin(), hits.end(), [](const BoxHit &a, const BoxHit &b) { return a.score < b.score; })
-      ->slot;
-}
-} // namespace
-
 template<int dim>
 void TreeSearch<dim>::seek(const Query &query, std::span<const Index> nodes, std::span<Candidate> result)
 {
@@ -31,50 +21,105 @@ void TreeSearch<dim>::seek(const Query &query, std::span<const Index> nodes, std
     block_[place].radius = block_[place].face < 0 ? std::min(usual_radius_, query.w) : block_[place].bound();
   while (n_pending > 0)
   {
+    n_groups_ = 0;
     const std::span<const int> places(pending.data(), static_cast<std::size_t>(n_pending));
     for (std::size_t first = 0; first < places.size(); first += group_size)
-      find_boxes(query, places.subspan(first, std::min<std::size_t>(group_size, places.size() - first)));
-    look_closer(query, places);
+      find_fronts(query, places.subspan(first, std::min<std::size_t>(group_size, places.size() - first)));
+    guess(query);
+    look_around(query);
     int n_left = 0;
     for (const int place : places)
-    {
-      Sought &sought = block_[place];
-      const double bound = sought.bound();
-      if (sought.n_hits == Sought::all_seen || (sought.n_hits >= 0 && bound <= sought.radius))
-      {
-        sought.margin = sought.face < 0 ? usual_margin_ : margin * shorter_edge(sought.slot);
-        finish(query, place, result[sought.node]);
-        continue;
-      }
-      if (sought.face >= 0)
-        sought.radius = bound;
-      else if (sought.n_hits >= 0)
-        sought.radius = std::min(2 * sought.radius, query.w);
-      pending[n_left++] = place;
-    }
+      if (is_done(block_[place], query.w))
+        finish(query, place, result[block_[place].node]);
+      else
+        pending[n_left++] = place;
     n_pending = n_left;
   }
   expect_alike(query, std::span(block_).first(nodes.size()));
 }
 
-// Projects on the likeliest face of each node, then on all that may be closer.
+// If not, sets the radius to look in next.
 template<int dim>
-void TreeSearch<dim>::look_closer(const Query &query, std::span<const int> places)
+bool TreeSearch<dim>::is_done(Sought &sought, double w) const
 {
-  for (const int place : places)
-    if (const Sought &sought = block_[place]; sought.n_hits > 0 && sought.face < 0)
-      add(query, place, likeliest(hits(place).first(sought.n_hits)));
-  project_all();
-  for (const int place : places)
+  const double bound = sought.bound();
+  if (sought.n_hits == Sought::all_seen || (sought.n_hits >= 0 && bound <= sought.radius))
+    return true;
+  if (sought.face >= 0)
+    sought.radius = bound;
+  else if (sought.n_hits >= 0)
+    sought.radius = std::min(2 * sought.radius, w);
+  return false;
+}
+
+// Projects on the likeliest face of each node that has none yet.
+template<int dim>
+void TreeSearch<dim>::guess(const Query &query)
+{
+  for (Group &group : std::span(groups_).first(n_groups_))
   {
-    const Sought &sought = block_[place];
-    const double reach = std::min(sought.bound(), sought.radius) + faces_.motion();
-    const auto bound = static_cast<float>(reach * reach) * (1 + 1e-5F);
-    for (int i = 0; i < sought.n_hits; ++i)
-      if (const BoxHit &hit = hits(place)[i]; hit.squared_distance <= bound && hit.slot != sought.slot)
-        add(query, place, hit.slot);
+    bool all_known = true;
+    for (int i = 0; i < group.n_places; ++i)
+      if (const Sought &sought = block_[group.places[i]]; sought.face < 0)
+      {
+        const double reach = sought.radius + faces_.motion();
+        tree_.set_bound(group.front, i, reach * reach);
+        all_known = false;
+      }
+    if (all_known)
+      continue;
+    std::array<std::uint32_t, group_size> slots;
+    tree_.likeliest(group.front, slots.data());
+    for (int i = 0; i < group.n_places; ++i)
+      if (slots[i] != no_slot)
+        add(query, group.places[i], slots[i]);
   }
   project_all();
+}
+
+// Projects on all that may be closer.
+template<int dim>
+void TreeSearch<dim>::look_around(const Query &query)
+{
+  for (Group &group : std::span(groups_).first(n_groups_))
+  {
+    std::array<BoxHit *, group_size> room{};
+    std::array<int, group_size> n_hits;
+    for (int i = 0; i < group.n_places; ++i)
+    {
+      Sought &sought = block_[group.places[i]];
+      set_reach(query, sought);
+      tree_.set_bound(group.front, i, sought.reach * sought.reach);
+      room[i] = hits(group.places[i]).data();
+    }
+    tree_.scan(group.front, room.data(), max_hits, n_hits.data());
+    for (int i = 0; i < group.n_places; ++i)
+    {
+      Sought &sought = block_[group.places[i]];
+      sought.n_hits = n_hits[i];
+      if (sought.n_hits > max_hits)
+      {
+        descend(query, sought);
+        continue;
+      }
+      const double to_face = std::min(sought.bound(), sought.radius) + faces_.motion();
+      const auto bound = static_cast<float>(to_face * to_face) * (1 + 1e-5F);
+      const std::uint32_t known = sought.slot;
+      for (int k = 0; k < n_hits[i]; ++k)
+        if (room[i][k].squared_distance <= bound && room[i][k].slot != known)
+          add(query, group.places[i], room[i][k].slot);
+    }
+  }
+  project_all();
+}
+
+// How far to look about a node: as far as its closest face, and the margin beyond for the list of near ones.
+template<int dim>
+void TreeSearch<dim>::set_reach(const Query &query, Sought &sought) const
+{
+  sought.margin = sought.face < 0 || query.exclusions ? 0 : margin * shorter_edge(sought.slot);
+  const double near = std::min(sought.bound(), sought.radius);
+  sought.reach = std::min(near + sought.margin, sought.radius + usual_margin_) + faces_.motion();
 }
 
 // What the last nodes needed the next will mostly need too.
@@ -91,50 +136,29 @@ void TreeSearch<dim>::expect_alike(const Query &query, std::span<const Sought> b
   usual_radius_ = std::min(radius, query.w);
 }
 
-// The boxes within each node's radius and margin, by way of the leaves within the largest of these.
+// The faces within the largest of the nodes' radii and margins.
 template<int dim>
-void TreeSearch<dim>::find_boxes(const Query &query, std::span<const int> places)
+void TreeSearch<dim>::find_fronts(const Query &query, std::span<const int> places)
 {
-  typename BoxTree<dim>::Box box;
-  std::fill_n(box.begin(), dim, std::numeric_limits<double>::infinity());
-  std::fill_n(box.begin() + dim, dim, -std::numeric_limits<double>::infinity());
+  Group &group = groups_[n_groups_];
+  group.n_places = 0;
   double largest = 0;
   for (const int place : places)
   {
-    const Sought &sought = block_[place];
-    for (int c = 0; c < dim; ++c)
-    {
-      box[c] = std::min(box[c], sought.x[c]);
-      box[c + dim] = std::max(box[c + dim], sought.x[c]);
-    }
-    largest = std::max(largest, sought.radius);
+    tree_.set_point(group.front, group.n_places, block_[place].x.data());
+    group.places[group.n_places++] = place;
+    largest = std::max(largest, block_[place].radius);
   }
-  const double margins = usual_margin_ + faces_.motion();
-  if (!tree_.collect(box, (largest + margins) * (largest + margins), front_))
-    return find_boxes_in_a_crowd(query, places);
-  for (const int place : places)
-  {
-    Sought &sought = block_[place];
-    const double reach = sought.radius + margins;
-    sought.n_hits = tree_.scan(front_, sought.x.data(), reach * reach, hits(place));
-    if (sought.n_hits <= max_hits)
-      for (int i = 0; i < sought.n_hits; ++i)
-        faces_.prefetch(hits(place)[i].slot);
-    else if (sought.face < 0 && sought.n_crowded < 2)
-    {
-      // The likeliest tells how far to look.
-      add(query, place, likeliest(hits(place)));
-      sought.n_crowded = 2;
-      sought.n_hits = Sought::sought_again;
-    }
-    else
-      descend(query, sought);
-  }
+  const double reach = largest + usual_margin_ + faces_.motion();
+  if (tree_.collect(group.front, group.n_places, reach * reach))
+    ++n_groups_;
+  else
+    find_fronts_in_a_crowd(query, places);
 }
 
-// Too many leaves for all: the radius is taken for too large, then the group for too wide.
+// Too many faces for all: the radius is taken for too large, then the group for too wide.
 template<int dim>
-void TreeSearch<dim>::find_boxes_in_a_crowd(const Query &query, std::span<const int> places)
+void TreeSearch<dim>::find_fronts_in_a_crowd(const Query &query, std::span<const int> places)
 {
   const bool is_first =
       std::all_of(places.begin(), places.end(),
@@ -151,8 +175,8 @@ void TreeSearch<dim>::find_boxes_in_a_crowd(const Query &query, std::span<const 
     descend(query, block_[places[0]]);
   else
   {
-    find_boxes(query, places.first(places.size() / 2));
-    find_boxes(query, places.subspan(places.size() / 2));
+    find_fronts(query, places.first(places.size() / 2));
+    find_fronts(query, places.subspan(places.size() / 2));
   }
 }
 
@@ -186,9 +210,9 @@ void TreeSearch<dim>::finish(const Query &query, int place, Candidate &result)
   near_.set_hint(sought.node, sought.face >= 0 ? static_cast<std::int64_t>(sought.slot) : -1);
   if (sought.n_hits < 0 || query.exclusions)
     return near_.forget(sought.node);
-  const double radius = std::min(sought.bound() + sought.margin, sought.radius + usual_margin_) + faces_.motion();
+  const double radius = std::min(sought.bound() + sought.margin + faces_.motion(), sought.reach);
   const auto bound = static_cast<float>(radius * radius);
-  const auto near = hits(place).first(sought.n_hits);
+  const auto near = hits(place).first(static_cast<std::size_t>(sought.n_hits));
   const auto is_listed = [bound](const BoxHit &hit) { return hit.squared_distance <= bound; };
   if (std::count_if(near.begin(), near.end(), is_listed) > most_listed)
     return near_.forget(sought.node);
