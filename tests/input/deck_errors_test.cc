@@ -120,12 +120,12 @@ const BadDeck conflicts[]{
     {"ImpactorIsTarget", "target: punch_bottom", "target: block_top",
      "deck.yaml:13:13: contact.0.target: the impactor and the target are the same, 'block_top'; a contact pair has two "
      "sides. Where a surface touches itself, write 'surface: block_top' instead of both"},
-    {"SurfaceAndTarget", "impactor: punch_bottom", "surface: block_top",
+    {"SurfaceAndTarget", "impactor: block_top", "surface: block_top",
      "deck.yaml:13:13: contact.0.target: has no meaning with 'surface', which is both sides of its own contact"},
-    {"NoImpactor", "    impactor: punch_bottom\n", "",
+    {"NoImpactor", "    impactor: block_top\n", "",
      "deck.yaml:11:5: contact.0: the key 'impactor' is missing (a contact has impactor and target, or, where a surface "
      "touches itself, 'surface')"},
-    {"SelfDistanceOfAPair", "target: block_top", "target: block_top\n    self-distance: 1",
+    {"SelfDistanceOfAPair", "target: punch_bottom", "target: punch_bottom\n    self-distance: 1",
      "deck.yaml:14:20: contact.0.self-distance: has a meaning with 'surface' only, where a surface touches itself"},
     {"BodyNameTwice", "name: punch", "name: block",
      "deck.yaml:7:11: bodies.1.name: 'block' is taken already, at deck.yaml:4:11"},

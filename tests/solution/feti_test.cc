@@ -25,7 +25,9 @@ void expect_same(const Problem &problem)
     EXPECT_LT(relative_difference(feti.contact(c).force, direct.contact(c).force), 1e-8);
     EXPECT_EQ(feti.contact(c).status, direct.contact(c).status);
   }
-  EXPECT_EQ(feti.iterations(), direct.iterations());
+  // Linear solves that stop early cost Newton some iterations.
+  for (std::size_t k = 0; k < direct.iterations().size(); ++k)
+    EXPECT_LE(feti.iterations()[k], 2 * direct.iterations()[k]);
 }
 
 /// Two blocks that do not match, pressed and pushed.
