@@ -92,7 +92,7 @@ private:
   Vector3d impactor_normal(Index node) const;
   Pair pair_of(Index node);
   Pair next_best(Index node, const Vector3d &x);
-  Pair best_of_considered(Index node, const Vector3d &x);
+  Pair best_of_considered(Index node, const Vector3d &x, NoPairReason &reason);
   void summarise();
   void summarise_self_contact();
 
@@ -250,6 +250,9 @@ Pair SurfaceDetector::pair_of(Index node)
 Pair SurfaceDetector::next_best(Index node, const Vector3d &x)
 {
   Pair pair;
+  // Without exclusions the closest point of all is a minimum, which the search may have left out for being past an end.
+  NoPairReason reason = exclusions_ ? NoPairReason::too_far : NoPairReason::past_end;
+  double done = -1;
   for (double radius = 2 * std::sqrt(candidates_[node].squared_distance);; radius *= 2)
   {
     const double bounded = std::clamp(radius, 1e-3 * distance_.w, distance_.w);
@@ -257,33 +260,34 @@ Pair SurfaceDetector::next_best(Index node, const Vector3d &x)
     search_->minima(target_, query_, node, bounded, considered_);
     std::sort(considered_.begin(), considered_.end(),
               [this](const Candidate &a, const Candidate &b) { return comes_before(target_.surface(), a, b); });
-    pair = best_of_considered(node, x);
+    // Those of the last, smaller ball did not do.
+    std::erase_if(considered_, [done](const Candidate &candidate) { return candidate.squared_distance <= done; });
+    done = bounded * bounded;
+    pair = best_of_considered(node, x, reason);
     if (pair.kind != PairKind::none || bounded == distance_.w)
       return pair;
     radius = bounded;
   }
 }
 
-// Once a node is seen to have come through a thin body, only points seen from inside count.
-Pair SurfaceDetector::best_of_considered(Index node, const Vector3d &x)
+// Once a node is seen to have come through a thin body (`behind`), only points seen from inside count.
+Pair SurfaceDetector::best_of_considered(Index node, const Vector3d &x, NoPairReason &reason)
 {
-  bool came_through = false;
-  Pair none;
-  // Without exclusions the closest point of all is a minimum, which the search may have left out for being past an end.
-  none.reason = exclusions_ ? NoPairReason::too_far : NoPairReason::past_end;
   for (const Candidate &candidate : considered_)
   {
     const Feature feature = look_at(target_, candidate, x, true, {query_.exclusions, node});
     if (!feature.is_minimum)
       continue;
-    none.reason = NoPairReason::past_end;
     const Verdict verdict = judge(feature, node);
-    came_through = came_through || verdict == Verdict::behind;
-    if (verdict == Verdict::taken && (feature.inside || !came_through))
+    if (verdict == Verdict::behind)
+      reason = NoPairReason::behind;
+    else if (reason != NoPairReason::behind)
+      reason = NoPairReason::past_end;
+    if (verdict == Verdict::taken && (feature.inside || reason != NoPairReason::behind))
       return feature.pair;
   }
-  if (came_through)
-    none.reason = NoPairReason::behind;
+  Pair none;
+  none.reason = reason;
   return none;
 }
 

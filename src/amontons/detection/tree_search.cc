@@ -187,25 +187,32 @@ void TreeSearch<dim>::consider(Sought &sought, std::uint32_t slot, LocalPoint xi
 }
 
 template<int dim>
-double TreeSearch<dim>::shorter_edge(std::uint32_t slot) const
+double TreeSearch<dim>::shortest_edge(std::uint32_t slot) const
 {
   const auto corners = faces_.corners(slot);
-  const int last = dim == 2 ? 1 : faces_.n_nodes(slot) - 1;
-  double first_edge = 0, last_edge = 0;
-  for (int c = 0; c < dim; ++c)
+  const auto squared_length = [&](int i, int j)
   {
-    first_edge += (corners[1][c] - corners[0][c]) * (corners[1][c] - corners[0][c]);
-    last_edge += (corners[last][c] - corners[0][c]) * (corners[last][c] - corners[0][c]);
+    double result = 0;
+    for (int c = 0; c < dim; ++c)
+      result += (corners[j][c] - corners[i][c]) * (corners[j][c] - corners[i][c]);
+    return result;
+  };
+  double shortest = squared_length(0, 1);
+  if constexpr (dim == 3)
+  {
+    shortest = std::min(shortest, squared_length(1, 2)); // a quadrilateral's other two are much like these
+    if (faces_.n_nodes(slot) == 3)
+      shortest = std::min(shortest, squared_length(2, 0));
   }
-  return std::sqrt(std::min(first_edge, last_edge));
+  return std::sqrt(shortest);
 }
 
 template<int dim>
 void TreeSearch<dim>::minima(const Target &target, const Query &query, Index node, double radius,
                              std::vector<Candidate> &result)
 {
-  // The cones cost as much as looking at every face once: made where that much has been spent without them.
-  if (!cones_are_current_ && n_looked_at_ > tree_.order().size())
+  // The cones cost as much as looking at half of the faces: made where that much has been spent without them.
+  if (!cones_are_current_ && n_looked_at_ > tree_.order().size() / 2)
   {
     cones_.build(target, tree_.order());
     cones_are_current_ = true;

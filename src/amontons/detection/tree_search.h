@@ -30,7 +30,7 @@ private:
   static constexpr int group_size = BoxFront<dim>::most_points;
   static constexpr Index most_in_run = 4;
   static constexpr int most_listed = 24; ///< near faces kept for a node
-  // What faces are listed beyond the closest one, in units of its shorter edge.
+  // What faces are listed beyond the closest one, in units of its shortest edge.
   static constexpr double margin = 0.25;
 
   /// A node being sought.
@@ -44,10 +44,10 @@ private:
     Index face = -1;
     LocalPoint xi{0, 0};
     double squared_distance = 0;
-    double margin = 0; ///< beyond the closest face
-    double reach = 0;  ///< of the hits
-    int n_hits = 0;    ///< or one of the following
-    int n_crowded = 0; ///< how often there were too many boxes within the radius
+    double margin = 0;       ///< beyond the closest face
+    double reach = 0;        ///< of the hits
+    int n_hits = 0;          ///< or one of the following
+    bool is_crowded = false; ///< there were too many boxes within the radius
     static constexpr int all_seen = -1, sought_again = -2;
     [[nodiscard]] double bound() const { return face < 0 ? w : std::min(w, std::sqrt(squared_distance)); }
   };
@@ -77,6 +77,7 @@ private:
   [[nodiscard]] std::span<BoxHit> hits(int place) { return std::span(hits_).subspan(place * max_hits, max_hits); }
   void find_fronts(const Query &query, std::span<const int> places);
   void find_fronts_in_a_crowd(const Query &query, std::span<const int> places);
+  [[nodiscard]] std::size_t widest_step(std::span<const int> places) const;
   void guess(const Query &query);
   void look_around(const Query &query);
   void set_reach(const Query &query, Sought &sought) const;
@@ -88,7 +89,7 @@ private:
   void project(Batch &batch);
   void project_all();
   void consider(Sought &sought, std::uint32_t slot, LocalPoint xi, double squared_distance);
-  [[nodiscard]] double shorter_edge(std::uint32_t slot) const;
+  [[nodiscard]] double shortest_edge(std::uint32_t slot) const;
 
   BoxTree<dim> tree_;
   SortedFaces<dim> faces_;

@@ -71,7 +71,7 @@ void TreeSearch<dim>::guess(const Query &query)
     std::array<std::uint32_t, group_size> slots;
     tree_.likeliest(group.front, slots.data());
     for (int i = 0; i < group.n_places; ++i)
-      if (slots[i] != no_slot)
+      if (slots[i] != no_slot && slots[i] != block_[group.places[i]].slot)
         add(query, group.places[i], slots[i]);
   }
   project_all();
@@ -117,7 +117,7 @@ void TreeSearch<dim>::look_around(const Query &query)
 template<int dim>
 void TreeSearch<dim>::set_reach(const Query &query, Sought &sought) const
 {
-  sought.margin = sought.face < 0 || query.exclusions ? 0 : margin * shorter_edge(sought.slot);
+  sought.margin = sought.face < 0 || query.exclusions ? 0 : margin * shortest_edge(sought.slot);
   const double near = std::min(sought.bound(), sought.radius);
   sought.reach = std::min(near + sought.margin, sought.radius + usual_margin_) + faces_.motion();
 }
@@ -160,24 +160,47 @@ void TreeSearch<dim>::find_fronts(const Query &query, std::span<const int> place
 template<int dim>
 void TreeSearch<dim>::find_fronts_in_a_crowd(const Query &query, std::span<const int> places)
 {
-  const bool is_first =
-      std::all_of(places.begin(), places.end(),
-                  [this](int place) { return block_[place].n_crowded == 0 && block_[place].face < 0; });
+  bool is_first = false;
+  for (const int place : places)
+    if (Sought &sought = block_[place]; sought.face < 0 && !sought.is_crowded)
+    {
+      sought.is_crowded = is_first = true;
+      sought.radius *= 0.25;
+    }
   if (is_first)
     for (const int place : places)
-    {
-      Sought &sought = block_[place];
-      sought.n_crowded = 1;
-      sought.radius *= 0.25;
-      sought.n_hits = Sought::sought_again;
-    }
+      block_[place].n_hits = Sought::sought_again;
   else if (places.size() == 1)
     descend(query, block_[places[0]]);
   else
   {
-    find_fronts(query, places.first(places.size() / 2));
-    find_fronts(query, places.subspan(places.size() / 2));
+    const std::size_t half = widest_step(places);
+    find_fronts(query, places.first(half));
+    find_fronts(query, places.subspan(half));
   }
+}
+
+// Where to split nodes that follow one another.
+template<int dim>
+std::size_t TreeSearch<dim>::widest_step(std::span<const int> places) const
+{
+  std::size_t result = places.size() / 2;
+  double widest = 0;
+  for (std::size_t i = 1; i < places.size(); ++i)
+  {
+    double squared = 0;
+    for (int c = 0; c < dim; ++c)
+    {
+      const double step = block_[places[i]].x[c] - block_[places[i - 1]].x[c];
+      squared += step * step;
+    }
+    if (squared > widest)
+    {
+      widest = squared;
+      result = i;
+    }
+  }
+  return result;
 }
 
 // One by one, the nearest first: where many faces are within the radius.
