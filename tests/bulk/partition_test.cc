@@ -1,3 +1,4 @@
+#include "amontons/bulk/bisection.h"
 #include "amontons/bulk/partition.h"
 #include "block_mesh.h"
 
@@ -111,6 +112,23 @@ TEST_P(PartitionTest, PartsHaveAboutTheSizeAskedFor)
 INSTANTIATE_TEST_SUITE_P(All, PartitionTest,
                          testing::Values(Lattice{CellShape::quadrilateral, 24}, Lattice{CellShape::triangle, 20},
                                          Lattice{CellShape::hexahedron, 10}, Lattice{CellShape::tetrahedron, 8}));
+
+TEST(Bisection, LayersOfCellsAreNotCutThrough)
+{
+  BlockMesh block;
+  block.shape = CellShape::hexahedron;
+  block.n = {12, 12, 12};
+  const Mesh mesh = block.make();
+  std::vector<Index> cells(static_cast<std::size_t>(mesh.cells.size()));
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    cells[c] = static_cast<Index>(c);
+  const std::vector<Index> part = bisect_cells(mesh, cells, 27);
+  std::vector<std::set<Index>> nodes(27);
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    nodes[part[c]].insert(mesh.cells[cells[c]].begin(), mesh.cells[cells[c]].end());
+  for (const std::set<Index> &of_part : nodes)
+    EXPECT_EQ(of_part.size(), 125U) << "no cube of 4 x 4 x 4 cells";
+}
 
 /// Two squares that meet in one node are no subdomain, however small.
 TEST(Partition, PartsJoinedByOneNodeAreApart)

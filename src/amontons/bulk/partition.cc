@@ -1,5 +1,7 @@
 #include "amontons/bulk/partition.h"
 
+#include "amontons/bulk/bisection.h"
+
 #include <metis.h>
 
 #include <algorithm>
@@ -114,30 +116,61 @@ std::vector<std::vector<Index>> cells_of_parts(const std::vector<Index> &part, I
   return cells;
 }
 
-/// Divides connected cells into n parts: colours first, first + 1, ...
-void divide(const Connectivity &neighbours, const std::vector<Index> &cells, Index n, Index first,
-            std::vector<Index> &colour)
+/// Graph of some cells alone, in METIS's form.
+struct CellGraph
 {
-  std::vector<idx_t> local(colour.size(), -1), offsets{0}, adjacent, out(cells.size());
-  for (std::size_t k = 0; k < cells.size(); ++k)
-    local[cells[k]] = static_cast<idx_t>(k);
-  for (const Index cell : cells)
+  CellGraph(const Connectivity &neighbours, const std::vector<Index> &cells)
   {
-    for (const Index other : neighbours[cell])
-      if (local[other] >= 0)
-        adjacent.push_back(local[other]);
-    offsets.push_back(static_cast<idx_t>(adjacent.size()));
+    std::vector<idx_t> local(static_cast<std::size_t>(neighbours.size()), -1);
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      local[cells[k]] = static_cast<idx_t>(k);
+    for (const Index cell : cells)
+    {
+      for (const Index other : neighbours[cell])
+        if (local[other] >= 0)
+          adjacent.push_back(local[other]);
+      offsets.push_back(static_cast<idx_t>(adjacent.size()));
+    }
   }
+
+  [[nodiscard]] idx_t size() const { return static_cast<idx_t>(offsets.size()) - 1; }
+  /// Pairs of neighbours in different parts, each counted twice.
+  [[nodiscard]] std::size_t cut(const std::vector<Index> &part) const
+  {
+    std::size_t n = 0;
+    for (idx_t k = 0; k < size(); ++k)
+      n += static_cast<std::size_t>(std::count_if(adjacent.begin() + offsets[k], adjacent.begin() + offsets[k + 1],
+                                                  [&](idx_t other) { return part[other] != part[k]; }));
+    return n;
+  }
+
+  std::vector<idx_t> offsets{0}, adjacent;
+};
+
+std::vector<Index> divide_by_metis(CellGraph &graph, Index n)
+{
   std::array<idx_t, METIS_NOPTIONS> options;
   METIS_SetDefaultOptions(options.data());
   options[METIS_OPTION_SEED] = 1;
-  auto n_cells = static_cast<idx_t>(cells.size());
-  idx_t n_constraints = 1, n_parts = n, cut = 0;
-  if (METIS_PartGraphKway(&n_cells, &n_constraints, offsets.data(), adjacent.data(), nullptr, nullptr, nullptr,
-                          &n_parts, nullptr, nullptr, options.data(), &cut, out.data()) != METIS_OK)
-    throw InternalError("METIS could not divide " + std::to_string(cells.size()) + " cells into " + std::to_string(n));
+  std::vector<idx_t> out(static_cast<std::size_t>(graph.size()));
+  idx_t n_cells = graph.size(), n_constraints = 1, n_parts = n, cut = 0;
+  if (METIS_PartGraphKway(&n_cells, &n_constraints, graph.offsets.data(), graph.adjacent.data(), nullptr, nullptr,
+                          nullptr, &n_parts, nullptr, nullptr, options.data(), &cut, out.data()) != METIS_OK)
+    throw InternalError("METIS could not divide " + std::to_string(n_cells) + " cells into " + std::to_string(n));
+  return {out.begin(), out.end()};
+}
+
+/// Divides connected cells into n parts: colours first, first + 1, ... Flat cuts where the mesh lies in layers, METIS
+/// where it does not: whichever cuts fewer facets.
+void divide(const Mesh &mesh, const Connectivity &neighbours, const std::vector<Index> &cells, Index n, Index first,
+            std::vector<Index> &colour)
+{
+  CellGraph graph(neighbours, cells);
+  std::vector<Index> part = bisect_cells(mesh, cells, n);
+  if (std::vector<Index> other = divide_by_metis(graph, n); graph.cut(other) < graph.cut(part))
+    part = std::move(other);
   for (std::size_t k = 0; k < cells.size(); ++k)
-    colour[cells[k]] = first + static_cast<Index>(out[k]);
+    colour[cells[k]] = first + part[k];
 }
 
 /// Joins parts of fewer cells than `least` to the neighbour they share most facets with.
@@ -193,7 +226,7 @@ std::vector<Index> partition_cells(const Mesh &mesh, const std::vector<BodyOptio
     const Index n = std::max<Index>(1, (static_cast<Index>(cells.size()) + wanted / 2) / wanted);
     least = std::max(least, static_cast<std::size_t>(least_share * wanted));
     if (n > 1)
-      divide(neighbours, cells, n, n_colours, colour);
+      divide(mesh, neighbours, cells, n, n_colours, colour);
     else
       for (const Index c : cells)
         colour[c] = n_colours;

@@ -7,7 +7,8 @@
 namespace amontons
 {
 /// Divides the deformable bodies into subdomains of about n_unknowns unknowns each (nodes shared by two counted in
-/// both), by METIS on the graph of cells that share a facet (Karypis, Kumar 1998).
+/// both): by flat cuts (bisection.h), or by METIS on the graph of cells that share a facet (Karypis, Kumar 1998),
+/// whichever cuts fewer facets of a body.
 ///
 /// A subdomain lies within one body, and its cells hang together by facets, so that its stiffness has no kernel but the
 /// rigid motions. The same mesh gives the same partition. Local.
