@@ -1,6 +1,7 @@
 #pragma once
 #include "amontons/base/ids.h"
 #include "amontons/detection/box_kernels.h"
+#include "amontons/detection/large_vector.h"
 
 #include <algorithm>
 #include <array>
@@ -100,7 +101,7 @@ private:
 
   std::array<double, dim> origin_{};
   std::vector<Index> order_;
-  std::vector<BoxNode<dim>> nodes_;        ///< level by level, the leaves first, relative to origin_
+  LargeVector<BoxNode<dim>> nodes_;        ///< level by level, the leaves first, relative to origin_
   std::vector<std::size_t> level_begin_;   ///< in nodes_
   double extent_ = 0, ordered_extent_ = 0; ///< of the leaves, summed
   double mean_extent_ = 0;

@@ -85,6 +85,7 @@ private:
     obstructed
   };
 
+  template<int dim>
   void choose_nodes(std::span<const double> impactor_x, std::span<const double> target_x);
   Verdict judge(const Feature &feature, Index node);
   bool is_obstructed(const Feature &feature, Index node);
@@ -114,32 +115,30 @@ private:
 };
 
 // Nodes inside the target's box grown by w; the others are done with.
+template<int dim>
 void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span<const double> target_x)
 {
-  const int dim = impactor_.dim;
-  std::array<double, 3> low, high;
+  std::array<double, dim> low, high, sums{};
   low.fill(INFINITY);
   high.fill(-INFINITY);
-  double sum = 0;
   for (std::size_t i = 0; i < target_x.size(); i += dim)
     for (int c = 0; c < dim; ++c)
     {
-      low[c] = std::min(low[c], target_x[i + c]);
-      high[c] = std::max(high[c], target_x[i + c]);
-      sum += target_x[i + c];
+      const double x = target_x[i + c];
+      low[c] = x < low[c] ? x : low[c];
+      high[c] = x > high[c] ? x : high[c];
+      sums[c] += x;
     }
-  for (const double x : impactor_x)
-    sum += x;
-  if (!std::isfinite(sum))
-    throw NumericalFailure("contact detection: the nodes' positions are not finite");
   nodes_.clear();
+  nodes_.reserve(pairing_.size());
   for (Index node = 0; node < impactor_.n_nodes(); ++node)
   {
+    const double *x = impactor_x.data() + static_cast<std::ptrdiff_t>(node) * dim;
     bool inside = true;
     for (int c = 0; c < dim; ++c)
     {
-      const double x = impactor_x[static_cast<std::size_t>(node) * dim + c];
-      inside = inside && x >= low[c] - distance_.w && x <= high[c] + distance_.w;
+      sums[c] += x[c];
+      inside = inside && x[c] >= low[c] - distance_.w && x[c] <= high[c] + distance_.w;
     }
     if (inside)
       nodes_.push_back(node);
@@ -150,6 +149,8 @@ void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span
       candidates_[node].face = -1;
     }
   }
+  if (!std::all_of(sums.begin(), sums.end(), [](double sum) { return std::isfinite(sum); }))
+    throw NumericalFailure("contact detection: the nodes' positions are not finite");
 }
 
 const Pairing &SurfaceDetector::detect(std::span<const double> impactor_x, std::span<const double> target_x,
@@ -162,7 +163,10 @@ const Pairing &SurfaceDetector::detect(std::span<const double> impactor_x, std::
   {
     const auto time = timers_.measure("bounds");
     distance_ = search_distance(target_, options_, reach);
-    choose_nodes(impactor_x, target_x);
+    if (impactor_.dim == 2)
+      choose_nodes<2>(impactor_x, target_x);
+    else
+      choose_nodes<3>(impactor_x, target_x);
   }
   if (exclusions_)
     exclusions_->move_to(target_x);

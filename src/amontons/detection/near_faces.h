@@ -1,11 +1,12 @@
 #pragma once
+#include "amontons/detection/large_vector.h"
+
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace amontons
 {
@@ -97,8 +98,8 @@ private:
     std::uint32_t begin = 0, n = 0;
     std::int32_t closest = -1;
   };
-  std::vector<Node> nodes_;
-  std::vector<Entry> entries_;
+  LargeVector<Node> nodes_;
+  LargeVector<Entry> entries_;
   std::size_t last_ = 0;
 };
 } // namespace amontons

@@ -1,11 +1,11 @@
 #pragma once
+#include "amontons/detection/large_vector.h"
 #include "amontons/surface/projection.h"
 #include "amontons/surface/surface.h"
 
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace amontons
 {
@@ -67,7 +67,7 @@ private:
   const Index *order_ = nullptr, *face_offsets_ = nullptr, *face_nodes_ = nullptr;
   const double *x_ = nullptr;
   std::size_t n_coordinates_ = 0;
-  std::vector<double> marked_;
+  LargeVector<double> marked_;
   double motion_ = 0;
   Box all_{};
 };
