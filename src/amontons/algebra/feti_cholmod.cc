@@ -60,23 +60,28 @@ CholmodSession::CholmodSession()
 
 CholmodSession::~CholmodSession()
 {
+  for (cholmod_dense **dense : {&solution_, &work_y_, &work_e_})
+    cholmod_free_dense(dense, &common_);
   cholmod_finish(&common_);
+}
+
+double *CholmodSession::solve(int system, cholmod_factor *factor, double *rhs, std::size_t n_rows,
+                              std::size_t n_columns)
+{
+  cholmod_dense right = view(rhs, n_rows, n_columns);
+  cholmod_solve2(system, factor, &right, nullptr, &solution_, nullptr, &work_y_, &work_e_, &common_);
+  check(common_, "solution");
+  return static_cast<double *>(solution_->x);
 }
 
 SparseCholesky::~SparseCholesky()
 {
-  cholmod_common *common = session_->common();
-  cholmod_free_factor(&factor_, common);
-  for (cholmod_dense **dense : {&solution_, &work_y_, &work_e_})
-    cholmod_free_dense(dense, common);
+  cholmod_free_factor(&factor_, session_->common());
 }
 
 SparseCholesky::SparseCholesky(SparseCholesky &&other) noexcept
   : session_(other.session_)
   , factor_(std::exchange(other.factor_, nullptr))
-  , solution_(std::exchange(other.solution_, nullptr))
-  , work_y_(std::exchange(other.work_y_, nullptr))
-  , work_e_(std::exchange(other.work_e_, nullptr))
 {
 }
 
@@ -107,23 +112,16 @@ void SparseCholesky::solve(std::span<double> x)
 {
   if (x.empty())
     return;
-  cholmod_common *common = session_->common();
-  cholmod_dense rhs = view(x.data(), x.size(), 1);
-  cholmod_solve2(CHOLMOD_A, factor_, &rhs, nullptr, &solution_, nullptr, &work_y_, &work_e_, common);
-  check(*common, "solution");
-  std::copy_n(static_cast<const double *>(solution_->x), x.size(), x.begin());
+  std::copy_n(session_->solve(CHOLMOD_A, factor_, x.data(), x.size(), 1), x.size(), x.begin());
 }
 
-void SparseCholesky::solve_half(std::vector<double> &X, Index n_columns)
+std::span<const int> SparseCholesky::order() const
 {
-  cholmod_common *common = session_->common();
-  cholmod_dense rhs = view(X.data(), X.size() / n_columns, n_columns);
-  for (const int system : {CHOLMOD_P, CHOLMOD_L})
-  {
-    cholmod_dense *out = cholmod_solve(system, factor_, &rhs, common);
-    check(*common, "solution");
-    std::copy_n(static_cast<const double *>(out->x), X.size(), X.begin());
-    cholmod_free_dense(&out, common);
-  }
+  return {static_cast<const int *>(factor_->Perm), factor_->n};
+}
+
+const double *SparseCholesky::solve_half(std::vector<double> &B, Index n_columns)
+{
+  return session_->solve(CHOLMOD_L, factor_, B.data(), B.size() / n_columns, n_columns);
 }
 } // namespace amontons

@@ -19,9 +19,13 @@ public:
   CholmodSession &operator=(const CholmodSession &) = delete;
 
   [[nodiscard]] cholmod_common *common() { return &common_; }
+  /// Solves with a factor in the session's own memory. @param system as CHOLMOD counts them
+  /// @return n_rows * n_columns values, by columns, until the next call
+  double *solve(int system, cholmod_factor *factor, double *rhs, std::size_t n_rows, std::size_t n_columns);
 
 private:
   cholmod_common common_{};
+  cholmod_dense *solution_ = nullptr, *work_y_ = nullptr, *work_e_ = nullptr;
 };
 
 /// Upper triangle of a symmetric matrix, compressed columns (or, the same, lower triangle, compressed rows).
@@ -53,12 +57,14 @@ public:
   [[nodiscard]] double reciprocal_condition() const;
   /// x = A^-1 x
   void solve(std::span<double> x);
-  /// X = L^-1 P X, P the reordering, so that X^T X = B^T A^-1 B. @param X [n * n_columns], by columns
-  void solve_half(std::vector<double> &X, Index n_columns);
+  /// Row k of the reordered matrix is row order()[k] of the matrix. [n]
+  [[nodiscard]] std::span<const int> order() const;
+  /// X = L^-1 B with the rows of B reordered, so that X^T X = B^T A^-1 B. @param B [n * n_columns], by columns
+  /// @return X like B, in the session's memory until the next solution
+  [[nodiscard]] const double *solve_half(std::vector<double> &B, Index n_columns);
 
 private:
   CholmodSession *session_;
   cholmod_factor *factor_ = nullptr;
-  cholmod_dense *solution_ = nullptr, *work_y_ = nullptr, *work_e_ = nullptr;
 };
 } // namespace amontons

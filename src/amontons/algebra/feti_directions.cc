@@ -13,6 +13,8 @@ constexpr std::size_t max_bytes = std::size_t{1} << 29;
 constexpr std::size_t least_kept = 40;
 /// An image that loses all but this share of its length when the others are taken out is dependent on them.
 constexpr double least_share = 1e-10;
+/// One that loses less than this leaves no round-off worth a second orthogonalisation (Daniel et al. 1976).
+constexpr double lossless_share = 0.1;
 
 double dot(std::span<const double> a, std::span<const double> b)
 {
@@ -47,14 +49,17 @@ void FetiDirections::project(std::span<double> x, std::span<double> r) const
 bool FetiDirections::add(std::vector<double> p, std::vector<double> q, std::span<double> x, std::span<double> r)
 {
   const double length = std::sqrt(dot(q, q));
-  for (int round = 0; round < 2; ++round) // the second against round-off of the first
+  double left = length;
+  for (int round = 0; round == 0 || (round == 1 && left < lossless_share * length); ++round)
+  {
     for (std::size_t k = 0; k < p_.size(); ++k)
     {
       const double factor = dot(q_[k], q);
       add_multiple(-factor, p_[k], p);
       add_multiple(-factor, q_[k], q);
     }
-  const double left = std::sqrt(dot(q, q));
+    left = std::sqrt(dot(q, q));
+  }
   if (!(left > least_share * length))
     return false;
   for (std::vector<double> *v : {&p, &q})

@@ -59,30 +59,20 @@ void SubdomainFactor::split()
   y_.resize(boundary_.size());
 }
 
-/// S, its lower triangle by columns. [n_boundary * n_boundary]
-std::vector<double> SubdomainFactor::schur_complement()
+void SubdomainFactor::factorize_interior()
 {
-  const Index n_i = static_cast<Index>(interior_.size()), n_b = n_boundary();
-  std::vector<double> S(static_cast<std::size_t>(n_b) * n_b, 0), X(static_cast<std::size_t>(n_i) * n_b, 0), values;
+  std::vector<double> values;
   SymmetricPattern pattern;
   for (const Index i : interior_)
   {
     for (Index k = matrix_.row_ptr[i]; k < matrix_.row_ptr[i + 1]; ++k)
-      if (const Index j = matrix_.col[k]; place_[j] >= 0)
-        X[static_cast<std::size_t>(place_[j]) * n_i + (-1 - place_[i])] = matrix_.values[k];
-      else if (j <= i)
+      if (const Index j = matrix_.col[k]; place_[j] < 0 && j <= i)
       {
         pattern.rows.push_back(-1 - place_[j]);
         values.push_back(matrix_.values[k]);
       }
     pattern.offsets.push_back(static_cast<Index>(pattern.rows.size()));
   }
-  for (const Index i : boundary_)
-    for (Index k = matrix_.row_ptr[i]; k < matrix_.row_ptr[i + 1]; ++k)
-      if (const Index j = matrix_.col[k]; place_[j] >= 0)
-        S[static_cast<std::size_t>(place_[j]) * n_b + place_[i]] = matrix_.values[k];
-  if (n_i == 0)
-    return S;
   if (!inner_)
   {
     inner_.emplace(*session_);
@@ -90,8 +80,28 @@ std::vector<double> SubdomainFactor::schur_complement()
   }
   if (!inner_->factorize(pattern, values))
     throw NumericalFailure("a subdomain's stiffness is not positive definite");
-  inner_->solve_half(X, n_b);
-  cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n_b, n_i, -1, X.data(), n_i, 1, S.data(), n_b);
+}
+
+/// S, its lower triangle by columns. [n_boundary * n_boundary]
+std::vector<double> SubdomainFactor::schur_complement()
+{
+  const Index n_i = static_cast<Index>(interior_.size()), n_b = n_boundary();
+  std::vector<double> S(static_cast<std::size_t>(n_b) * n_b, 0);
+  for (const Index i : boundary_)
+    for (Index k = matrix_.row_ptr[i]; k < matrix_.row_ptr[i + 1]; ++k)
+      if (const Index j = matrix_.col[k]; place_[j] >= 0)
+        S[static_cast<std::size_t>(place_[j]) * n_b + place_[i]] = matrix_.values[k];
+  if (n_i == 0)
+    return S;
+  factorize_interior();
+  const std::span<const int> order = inner_->order();
+  std::vector<double> coupling(static_cast<std::size_t>(n_i) * n_b, 0);
+  for (Index row = 0; row < n_i; ++row)
+    for (Index i = interior_[order[row]], k = matrix_.row_ptr[i]; k < matrix_.row_ptr[i + 1]; ++k)
+      if (const Index j = place_[matrix_.col[k]]; j >= 0)
+        coupling[static_cast<std::size_t>(j) * n_i + row] = matrix_.values[k];
+  const double *X = inner_->solve_half(coupling, n_b);
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n_b, n_i, -1, X, n_i, 1, S.data(), n_b);
   return S;
 }
 

@@ -46,6 +46,7 @@ public:
 
 private:
   void split();
+  void factorize_interior();
   [[nodiscard]] std::vector<double> schur_complement();
   void find_kernel();
   void invert(std::vector<float> &dense);
@@ -58,6 +59,6 @@ private:
   CholmodSession *session_;
   std::vector<float> flexibility_, stiffness_; ///< packed lower triangles, by columns
   mutable std::vector<float> x_, y_;
-  std::vector<double> inner_values_, work_;
+  std::vector<double> work_;
 };
 } // namespace amontons
