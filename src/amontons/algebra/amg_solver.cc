@@ -14,9 +14,10 @@ constexpr PetscInt restart = 60;
 constexpr PetscInt max_iterations = 1000;
 /// Least residual over the right side that is asked for: round-off of large systems.
 constexpr double least_reduction = 1e-12;
-/// A kept hierarchy is made anew for the next solve when it takes more than this many times the iterations per digit of
-/// a fresh one, and within a solve after `hopeless` times.
-constexpr double measurably_worse = 1.5, hopeless = 3;
+/// A kept hierarchy is made anew when the iterations that it took beyond a fresh one's are worth a set-up, which costs
+/// about as much as this many iterations (27 to 33 measured, 3D, 7e4 to 4e5 unknowns); within a solve when it takes
+/// more than `hopeless` times a fresh one's.
+constexpr double setup_in_iterations = 30, hopeless = 3;
 
 class AmgSolver : public LinearSolver
 {
@@ -35,11 +36,14 @@ public:
   void factorize() override
   {
     matrix_.values_changed();
-    const bool symmetric = is_symmetric(*source_);
-    if (!ksp_ || symmetric != symmetric_ || worse_)
-      set_up(symmetric);
+    symmetric_ = is_symmetric(*source_);
+    if (!ksp_ || worse_)
+      set_up();
     else
+    {
+      choose_method();
       fresh_ = false;
+    }
   }
 
   void solve(std::span<const double> rhs, std::span<double> solution, double tolerance) override
@@ -57,7 +61,7 @@ public:
         throw NumericalFailure("the linear solver (multigrid) does not converge");
       if (!converged)
       {
-        set_up(symmetric_);
+        set_up();
         check_petsc(VecSet(matrix_.solution(), 0), "start");
         if (!iterate(tolerance, max_iterations))
           throw NumericalFailure("the linear solver (multigrid) does not converge");
@@ -94,26 +98,30 @@ private:
     const double now = n_last_ / std::max(digits, 1.);
     if (fresh_)
       iterations_per_digit_ = std::max(now, 1.);
-    worse_ = !fresh_ && now > measurably_worse * iterations_per_digit_;
+    excess_ += std::max(0., n_last_ - iterations_per_digit_ * std::max(digits, 1.));
+    worse_ = excess_ > setup_in_iterations;
   }
 
-  void set_up(bool symmetric)
+  /// The iteration that the matrix allows, about the same hierarchy.
+  void choose_method()
   {
-    symmetric_ = symmetric;
+    check_petsc(MatSetOption(matrix_.get(), MAT_SYMMETRIC, symmetric_ ? PETSC_TRUE : PETSC_FALSE), "symmetry");
+    check_petsc(KSPSetType(ksp_.get(), symmetric_ ? KSPCG : KSPGMRES), "solver type");
+    if (!symmetric_)
+      check_petsc(KSPGMRESSetRestart(ksp_.get(), restart), "restart");
+    check_petsc(KSPSetPCSide(ksp_.get(), symmetric_ ? PC_LEFT : PC_RIGHT), "side");
+    check_petsc(KSPSetNormType(ksp_.get(), KSP_NORM_UNPRECONDITIONED), "norm");
+  }
+
+  void set_up()
+  {
     KSP ksp = nullptr;
     check_petsc(KSPCreate(PETSC_COMM_SELF, &ksp), "solver");
     ksp_.reset(ksp);
     check_petsc(KSPSetOptionsPrefix(ksp, "amontons_"), "options");
-    check_petsc(MatSetOption(matrix_.get(), MAT_SYMMETRIC, symmetric ? PETSC_TRUE : PETSC_FALSE), "symmetry");
     attach_modes();
     check_petsc(KSPSetOperators(ksp, matrix_.get(), matrix_.get()), "operator");
-    check_petsc(KSPSetType(ksp, symmetric ? KSPCG : KSPGMRES), "solver type");
-    if (!symmetric)
-    {
-      check_petsc(KSPGMRESSetRestart(ksp, restart), "restart");
-      check_petsc(KSPSetPCSide(ksp, PC_RIGHT), "side");
-    }
-    check_petsc(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED), "norm");
+    choose_method();
     check_petsc(KSPSetInitialGuessNonzero(ksp, PETSC_TRUE), "start");
     make_hierarchy(ksp);
     check_petsc(KSPSetUp(ksp), "multigrid");
@@ -121,6 +129,7 @@ private:
     ++n_setups_;
     fresh_ = true;
     worse_ = false;
+    excess_ = 0;
   }
 
   static void make_hierarchy(KSP ksp)
@@ -171,7 +180,7 @@ private:
   KspHandle ksp_;
   std::vector<std::vector<double>> modes_;
   bool symmetric_ = false, fresh_ = false, worse_ = false;
-  double iterations_per_digit_ = 0;
+  double iterations_per_digit_ = 0, excess_ = 0;
   PetscInt n_last_ = 0;
   std::int64_t n_setups_ = 0, n_pattern_builds_ = 0, n_iterations_ = 0;
 };

@@ -126,7 +126,9 @@ ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t 
       contact.committed_status(i) != ContactStatus::open)
     status = contact.committed_status(i);
   const bool force_closed = forced && status == ContactStatus::open;
-  work.element = force_closed ? contact_element(now, lambda, 0, r, ContactStatus::slip)
+  // Where forces move bodies, what closes first must not hold them sideways as well.
+  const bool sticks = mu > 0 && !record_nodes_;
+  work.element = force_closed ? contact_element(now, lambda, 0, r, sticks ? ContactStatus::stick : ContactStatus::slip)
                               : contact_element(now, lambda, mu, r, status);
   if (!record_nodes_)
     return work;
@@ -217,7 +219,7 @@ ContactContribution ContactAssembly::evaluate(const State &state, std::span<cons
   for (int c = 0; c < static_cast<int>(model_.contacts().size()); ++c)
     for (Index i = 0; i < model_.contacts()[c].n_nodes(); ++i)
     {
-      const bool force = std::find(forced.begin(), forced.end(), std::pair{c, i}) != forced.end();
+      const bool force = std::binary_search(forced.begin(), forced.end(), std::pair{c, i});
       Work work = make_element(c, i, first_block_[c] + i, state, start, pending, force, first);
       out.status.push_back(work.element.status);
       const auto node = static_cast<Index>(model_.contacts()[c].impactor().node_ids[i]);

@@ -34,7 +34,7 @@ public:
 
   /// @param start nodal displacement at the increment's beginning
   /// @param pending prescribed motion still to come, nodal; may be empty
-  /// @param forced (contact, node) to be taken as closed whatever sigma says
+  /// @param forced (contact, node) to be taken as closed whatever sigma says, in ascending order
   /// @param first at an increment's beginning a closed node keeps the status it ended the last one with: at the limit
   /// of
   ///        friction sigma cannot tell stick from slip, and sliding that goes on is the likelier

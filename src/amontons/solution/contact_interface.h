@@ -62,6 +62,12 @@ public:
   /// where the gap vanished, or its end. The first call within an increment counts.
   void set_trial(std::span<const double> displacement, std::span<const double> start);
 
+  /// Gap of node i, which is paired.
+  [[nodiscard]] double gap(Index i, std::span<const double> displacement) const
+  {
+    return linearise_with_origin(i, displacement, displacement).gap;
+  }
+
   /// Gap and slip of node i. A node that is closed before there is a trial state takes the present one for it.
   ContactLinearisation linearise(Index i, std::span<const double> displacement, std::span<const double> start);
 

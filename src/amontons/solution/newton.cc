@@ -24,7 +24,9 @@ constexpr int damped_after_cycle = 3;
 constexpr int named_flips = 3;
 /// Part of the tolerance that a linear solve may leave, and the loosest one.
 constexpr double linear_share = 0.3, loosest = 0.1;
-/// The same where prescribed motion is still to come.
+/// Where no more than this part of the closed nodes changed status, the next solve is likely to be the last.
+constexpr double few_changes = 0.01;
+/// The loosest where prescribed motion is still to come.
 constexpr double first_share = 1e-3;
 /// Of the internal forces, over what the displacement would meet if nodes moved alone.
 constexpr double round_off = 1e-13;
@@ -78,7 +80,16 @@ std::uint64_t signature(std::span<const ContactStatus> statuses, std::span<const
       mix(pair.face);
   return hash;
 }
+
+bool has_friction(const Model &model)
+{
+  const auto &contacts = model.contacts();
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const auto &c) { return c.options().friction_coefficient > 0; });
+}
 } // namespace
+
+using Closed = std::vector<std::pair<int, Index>>;
 
 /// The residual at a state, and what is needed to go on from it.
 struct Newton::Evaluation
@@ -95,6 +106,7 @@ struct Newton::Evaluation
 
 struct Newton::Iterate
 {
+  bool has_trial = false; ///< nodes that close know where their slip starts
   State state;
   Evaluation at;
 };
@@ -399,7 +411,7 @@ void Newton::set_trial(const State &trial, const State &start)
     contact.set_trial(trial.displacement, start.displacement);
 }
 
-void Newton::iterate(Iterate &now, const State &start, double time, bool guessed, NewtonOutcome &outcome)
+void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome)
 {
   const SolverOptions &options = model_.options().solver;
   std::map<std::uint64_t, int> seen;
@@ -408,25 +420,24 @@ void Newton::iterate(Iterate &now, const State &start, double time, bool guessed
   double last_norm = now.at.norm;
   const auto contacts = std::span(std::as_const(model_).contacts());
   bool settled = std::all_of(contacts.begin(), contacts.end(), [](const auto &c) { return c.options().tied; });
-  const bool has_friction =
-      std::any_of(contacts.begin(), contacts.end(), [](const auto &c) { return c.options().friction_coefficient > 0; });
   for (int iteration = 1; now.at.norm > options.tolerance * now.at.scale || now.at.pending_motion > 0; ++iteration)
   {
     if (iteration > options.max_iterations)
       throw NumericalFailure("no convergence in " + std::to_string(options.max_iterations) + " iterations");
     contacts_.remember_slip();
-    restrain(now.at, now.state, start, time, iteration == 1 && !guessed);
+    restrain(now.at, now.state, start, time, iteration == 1 && !now.has_trial);
     const auto n_before = form_->counters().n_iterations;
     const std::vector<double> increment =
-        solve_linear(now.at, linear_tolerance(now.at, last_norm, settled, iteration == 1 && !guessed && has_friction));
+        solve_linear(now.at, linear_tolerance(now.at, last_norm, settled, !now.has_trial && has_friction(model_)));
     outcome.n_iterations = iteration;
     outcome.n_linear_iterations += static_cast<int>(form_->counters().n_iterations - n_before);
     ++counters_.n_newton_iterations;
 
     double share = 1;
     Iterate next = step_from(now, start, time, increment, n_damped > 0, share);
-    if (iteration == 1 && !guessed)
+    if (!now.has_trial)
       set_trial(next.state, start);
+    next.has_trial = true;
     IterationReport report = compare(now, next);
     report.iteration = iteration;
     report.step_length = share;
@@ -437,13 +448,23 @@ void Newton::iterate(Iterate &now, const State &start, double time, bool guessed
     place->second = iteration;
     n_cycles += circle;
     report_(report);
-    last_norm = now.at.norm;
-    settled = model_.small_strain() && report.n_status_changes == 0;
+    // While prescribed motion was to come, the residual said nothing of the forces.
+    last_norm = now.at.pending_motion > 0 ? next.at.norm : now.at.norm;
+    settled = model_.small_strain() && report.n_status_changes <= few_changes * report.n_active;
     now = std::move(next);
     if (n_cycles > max_cycles)
       throw NumericalFailure("statuses or faces turn in a circle" +
                              (report.remark.empty() ? "" : ": " + report.remark));
   }
+}
+
+bool Newton::nothing_closed() const
+{
+  for (const ContactInterface &contact : std::as_const(model_).contacts())
+    for (Index i = 0; i < contact.n_nodes(); ++i)
+      if (contact.committed_status(i) != ContactStatus::open)
+        return false;
+  return true;
 }
 
 Newton::Iterate Newton::begin(const State &start, double time, const State *guess)
@@ -453,9 +474,22 @@ Newton::Iterate Newton::begin(const State &start, double time, const State *gues
   Iterate out;
   out.state = guess ? *guess : start;
   detect(out.state);
-  out.at = evaluate(out.state, start, time, {}, !guess);
+  Closed touching;
+  // FreeMotions chooses by itself what closes first where forces move bodies.
+  if (!guess && !free_motions_.any() && (!has_friction(model_) || nothing_closed()))
+  {
+    const State approach = predictor_.approach(start, time);
+    touching = predictor_.touching(start, approach);
+    out.has_trial = !touching.empty();
+    if (out.has_trial)
+      set_trial(approach, start);
+  }
+  out.at = evaluate(out.state, start, time, touching, !guess);
   if (guess && out.at.valid)
+  {
     set_trial(out.state, start);
+    out.has_trial = true;
+  }
   return out;
 }
 
@@ -475,7 +509,7 @@ NewtonOutcome Newton::solve(State &state, double from, double to)
     if (!now.at.valid)
       throw NumericalFailure("a cell is inside out at the beginning of the increment");
     n_flips_.assign(now.at.status.size(), 0);
-    iterate(now, start, to, guess.has_value(), outcome);
+    iterate(now, start, to, outcome);
     outcome.converged = true;
     residual_ = now.at.residual;
     state = std::move(now.state);

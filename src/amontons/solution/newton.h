@@ -51,10 +51,11 @@ private:
   [[nodiscard]] std::vector<double> solve_linear(const Evaluation &at, double tolerance);
   [[nodiscard]] double linear_tolerance(const Evaluation &at, double last_norm, bool settled, bool trial) const;
   void set_trial(const State &trial, const State &start);
+  [[nodiscard]] bool nothing_closed() const;
   /// The state and its evaluation from which an increment's iterations start.
   [[nodiscard]] Iterate begin(const State &start, double time, const State *guess);
   /// Newton's iterations from `now` to the solution, which replaces it. @throws NumericalFailure with the cause
-  void iterate(Iterate &now, const State &start, double time, bool guessed, NewtonOutcome &outcome);
+  void iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome);
   [[nodiscard]] Iterate step_from(const Iterate &from, const State &start, double time,
                                   std::span<const double> increment, bool damp, double &share);
   [[nodiscard]] IterationReport compare(const Iterate &before, const Iterate &after);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace amontons
@@ -95,5 +96,44 @@ std::optional<State> Predictor::guess(const State &now, double from, double to)
     body.rotation = turn * body.rotation;
   }
   return model_.prescribe(std::move(out), to, 1);
+}
+State Predictor::approach(const State &now, double to) const
+{
+  const auto dim = static_cast<std::size_t>(model_.dim());
+  const Mesh &mesh = model_.mesh();
+  State out = model_.prescribe(now, to, 1);
+  std::vector<Index> body(mesh.points.size() / dim, -1);
+  const std::span<const Index> body_of_cell = model_.bodies().body_of_cell();
+  for (std::size_t cell = 0; cell < body_of_cell.size(); ++cell)
+    for (const Index node : mesh.cells[cell])
+      body[node] = body_of_cell[cell];
+  std::vector<double> sum(model_.options().bodies.size() * dim, 0.0), count(sum);
+  for (const HeldComponent &held : model_.supports().held())
+    if (const Index b = body[held.nodal / dim]; b >= 0)
+    {
+      sum[b * dim + held.nodal % dim] += out.displacement[held.nodal] - now.displacement[held.nodal];
+      ++count[b * dim + held.nodal % dim];
+    }
+  for (std::size_t node = 0; node < body.size(); ++node)
+    if (body[node] >= 0 && model_.rigid_of_node()[node] < 0)
+      for (std::size_t i = node * dim, k = body[node] * dim; i < (node + 1) * dim; ++i, ++k)
+        out.displacement[i] = now.displacement[i] + sum[k] / std::max(count[k], 1.0);
+  return out;
+}
+
+std::vector<std::pair<int, Index>> Predictor::touching(const State &now, const State &approach)
+{
+  std::vector<std::pair<int, Index>> out;
+  std::vector<ContactInterface> &contacts = model_.contacts();
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    for (Index i = 0; i < contacts[c].n_nodes(); ++i)
+    {
+      if (!contacts[c].paired(i) || contacts[c].options().tied)
+        continue;
+      const double start = contacts[c].gap(i, now.displacement);
+      if (start > 0 && contacts[c].gap(i, approach.displacement) < 0)
+        out.emplace_back(static_cast<int>(c), i);
+    }
+  return out;
 }
 } // namespace amontons

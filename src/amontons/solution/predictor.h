@@ -22,6 +22,11 @@ public:
   /// @param now the state at time `from`, the last one remembered
   [[nodiscard]] std::optional<State> guess(const State &now, double from, double to);
 
+  /// The state at a time if every body moves as its supports do in the mean.
+  [[nodiscard]] State approach(const State &now, double to) const;
+  /// Nodes (contact, node) that are open and close on the way to `approach`.
+  [[nodiscard]] std::vector<std::pair<int, Index>> touching(const State &now, const State &approach);
+
 private:
   struct Loads
   {
