@@ -156,8 +156,8 @@ void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span
 const Pairing &SurfaceDetector::detect(std::span<const double> impactor_x, std::span<const double> target_x,
                                        double reach)
 {
-  AMONTONS_ASSERT(impactor_x.size() == impactor_.reference.size());
-  AMONTONS_ASSERT(target_x.size() == target_.surface().reference.size());
+  AMONTONS_ASSERT(impactor_x.size() == impactor_.node_ids.size() * impactor_.dim);
+  AMONTONS_ASSERT(target_x.size() == target_.surface().node_ids.size() * impactor_.dim);
   timers_ = Timers();
   target_.move_to(target_x);
   {

@@ -86,6 +86,8 @@ public:
   }
   void add(std::uint32_t slot, float squared_distance)
   {
+    if (entries_.size() == entries_.capacity())
+      entries_.reserve(entries_.size() + entries_.size() / 4 + 64); // twice as much would mostly stay empty
     entries_.push_back({slot, squared_distance});
     ++nodes_[last_].n;
   }

@@ -1,12 +1,14 @@
 #include "amontons/detection/renumbered_detector.h"
 
+#include "amontons/detection/large_vector.h"
 #include "amontons/detection/visiting_order.h"
 
 namespace amontons
 {
 namespace
 {
-/// A surface with its nodes in a given order and its faces in that of their first nodes.
+/// A surface with its nodes in a given order and its faces in that of their first nodes; without reference coordinates,
+/// which detection does not ask for.
 struct Renumbered
 {
   Renumbered(const Surface &original, std::vector<Index> node_order);
@@ -20,14 +22,11 @@ Renumbered::Renumbered(const Surface &original, std::vector<Index> node_order)
 {
   surface.dim = original.dim;
   surface.node_ids.reserve(nodes.size());
-  surface.reference.reserve(original.reference.size());
   std::vector<Index> number(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
     number[nodes[i]] = static_cast<Index>(i);
     surface.node_ids.push_back(original.node_ids[nodes[i]]);
-    const double *x = original.reference.data() + static_cast<std::ptrdiff_t>(nodes[i]) * original.dim;
-    surface.reference.insert(surface.reference.end(), x, x + original.dim);
   }
   if (original.node_face_offsets.size() != nodes.size() + 1)
     return; // nodes alone
@@ -78,11 +77,13 @@ public:
         x_[i * dim + c] = x[static_cast<std::size_t>(own_->nodes[i]) * dim + c];
     return x_;
   }
+  /// Of what numbered() gave nothing is needed any more.
+  void release() { x_ = LargeVector<double>(); }
 
 private:
   const Surface &given_;
   std::optional<Renumbered> own_;
-  std::vector<double> x_;
+  LargeVector<double> x_;
 };
 
 class RenumberedDetector : public Detector
@@ -106,6 +107,8 @@ public:
       Pair &pair = pairing_[impactor_.original_node(static_cast<Index>(i))] = found[i];
       pair.face = target_.original_face(pair.face);
     }
+    impactor_.release();
+    target_.release();
     return pairing_;
   }
 
