@@ -493,32 +493,39 @@ Newton::Iterate Newton::begin(const State &start, double time, const State *gues
   return out;
 }
 
+void Newton::attempt(State &state, const State &start, double to, const State *guess, NewtonOutcome &outcome)
+{
+  Iterate now = begin(start, to, guess);
+  if (!now.at.valid)
+    throw NumericalFailure("a cell is inside out at the beginning of the increment");
+  n_flips_.assign(now.at.status.size(), 0);
+  iterate(now, start, to, outcome);
+  outcome.converged = true;
+  residual_ = now.at.residual;
+  state = std::move(now.state);
+}
+
 NewtonOutcome Newton::solve(State &state, double from, double to)
 {
   NewtonOutcome outcome;
   const State start = state;
-  try
-  {
-    std::optional<State> guess = predictor_.guess(start, from, to);
-    Iterate now = begin(start, to, guess ? &*guess : nullptr);
-    if (guess && !now.at.valid)
+  std::optional<State> guess = predictor_.guess(start, from, to);
+  while (true)
+    try
     {
-      guess.reset();
-      now = begin(start, to, nullptr);
+      attempt(state, start, to, guess ? &*guess : nullptr, outcome);
+      predictor_.remember(start, from, to);
+      break;
     }
-    if (!now.at.valid)
-      throw NumericalFailure("a cell is inside out at the beginning of the increment");
-    n_flips_.assign(now.at.status.size(), 0);
-    iterate(now, start, to, outcome);
-    outcome.converged = true;
-    residual_ = now.at.residual;
-    state = std::move(now.state);
-    predictor_.remember(start, from, to);
-  }
-  catch (const NumericalFailure &failure)
-  {
-    outcome.cause = failure.what();
-  }
+    catch (const NumericalFailure &failure)
+    {
+      outcome.cause = failure.what();
+      if (!guess)
+        break;
+      // A guess may lead astray where nodes change faces: the increment is tried without.
+      guess.reset();
+      begin_increment(start, reach_);
+    }
   return outcome;
 }
 } // namespace amontons

@@ -54,6 +54,8 @@ private:
   [[nodiscard]] bool nothing_closed() const;
   /// The state and its evaluation from which an increment's iterations start.
   [[nodiscard]] Iterate begin(const State &start, double time, const State *guess);
+  /// Solves for `state` from a guess, or from the increment's beginning. @throws NumericalFailure with the cause
+  void attempt(State &state, const State &start, double to, const State *guess, NewtonOutcome &outcome);
   /// Newton's iterations from `now` to the solution, which replaces it. @throws NumericalFailure with the cause
   void iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome);
   [[nodiscard]] Iterate step_from(const Iterate &from, const State &start, double time,
