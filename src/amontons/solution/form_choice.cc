@@ -10,7 +10,7 @@ namespace amontons
 {
 namespace
 {
-/// Unknowns of a subdomain, as measured (docs/decisions/0012-feti.md).
+/// Unknowns of a subdomain: in 3D as measured (docs/decisions/0012-feti.md), in the plane a guess.
 int subdomain_size(int dim)
 {
   return dim == 3 ? 650 : 1200;
