@@ -69,7 +69,7 @@ int n_changes(const Record &run)
 void expect_bodies_built_once(const Record &run)
 {
   EXPECT_EQ(run.attempts.size(), static_cast<std::size_t>(n_increments));
-  EXPECT_GT(n_changes(run), 1);
+  EXPECT_GT(n_changes(run), 0);
   EXPECT_EQ(run.counters.n_bulk_assemblies, 1);
   EXPECT_EQ(run.counters.n_detections, 1);
   EXPECT_EQ(run.counters.n_pattern_builds, 1);
