@@ -13,8 +13,10 @@ constexpr double default_tolerance = 1e-10;
 /// What one round in single precision can gain at the most.
 constexpr double round_reduction = 1e-5;
 constexpr int max_rounds = 12;
-/// Rounds that gain less than this have come to round-off; it may be this far above the tolerance.
-constexpr double least_gain = 0.5, allowed_round_off = 1e4;
+/// Rounds that gain less than this have come to round-off, which may be this part of the right side.
+constexpr double least_gain = 0.5, allowed_round_off = 1e-6;
+/// By how much at most a round that gained nothing makes the next one's target smaller.
+constexpr double sharper = 1e-3;
 } // namespace
 
 FetiForm::FetiForm(const Layout &layout, std::span<const SubdomainMatrix> subdomains, FetiOptions options)
@@ -282,7 +284,7 @@ void FetiForm::solve(std::span<const double> rhs, std::span<double> solution, do
   FetiStep sum{std::vector<double>(static_cast<std::size_t>(layout_.n_displacement_unknowns()), 0.0),
                std::vector<double>(right_side.gaps.size(), 0.0), std::vector<double>(modes_.size(), 0.0)};
   Residual left = right_side;
-  double before = left.norm;
+  double before = left.norm, target = 0.3 * limit;
   const auto add = [](std::vector<double> &to, const std::vector<double> &what)
   {
     for (std::size_t i = 0; i < to.size(); ++i)
@@ -290,13 +292,17 @@ void FetiForm::solve(std::span<const double> rhs, std::span<double> solution, do
   };
   for (int round = 0; left.norm > limit; ++round)
   {
-    const FetiStep step = dual_->solve(left.forces, left.gaps, left.motions, round_reduction, 0.3 * limit);
+    const FetiStep step = dual_->solve(left.forces, left.gaps, left.motions, round_reduction, target);
     add(sum.unknowns, step.unknowns);
     add(sum.rows, step.rows);
     add(sum.modes, step.modes);
     left = residual(right_side, sum);
-    if (round > 0 && left.norm > least_gain * before && left.norm <= allowed_round_off * limit)
+    const bool stagnates = left.norm > least_gain * before;
+    if (round > 0 && stagnates && left.norm <= allowed_round_off * right_side.norm)
       break;
+    // The iteration stops on the preconditioned residual, which may be much the smaller.
+    if (stagnates)
+      target *= std::max(0.3 * limit / left.norm, sharper);
     if (round == max_rounds || !std::isfinite(left.norm))
       throw NumericalFailure("the iteration over the subdomains does not converge");
     before = left.norm;

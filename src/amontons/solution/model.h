@@ -8,6 +8,7 @@
 #include "amontons/solution/options.h"
 #include "amontons/solution/state.h"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,11 @@ public:
   [[nodiscard]] const BodyAssembly &bodies() const { return *bodies_; }
   [[nodiscard]] std::vector<ContactInterface> &contacts() { return contacts_; }
   [[nodiscard]] const std::vector<ContactInterface> &contacts() const { return contacts_; }
+  [[nodiscard]] bool has_friction() const
+  {
+    return std::any_of(contacts_.begin(), contacts_.end(),
+                       [](const ContactInterface &c) { return c.options().friction_coefficient > 0; });
+  }
   [[nodiscard]] const Layout &layout() const { return layout_; }
 
   [[nodiscard]] Index n_nodal() const { return (mesh_.n_nodes() + rigid_->n_extra_nodes()) * mesh_.dim; }

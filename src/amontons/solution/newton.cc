@@ -22,13 +22,6 @@ constexpr double linear_share = 0.3, loosest = 0.1;
 constexpr double few_changes = 0.01;
 /// The loosest where prescribed motion is still to come.
 constexpr double first_share = 1e-3;
-
-bool has_friction(const Model &model)
-{
-  const auto &contacts = model.contacts();
-  return std::any_of(contacts.begin(), contacts.end(),
-                     [](const auto &c) { return c.options().friction_coefficient > 0; });
-}
 } // namespace
 
 Newton::Newton(Model &model, Counters &counters, Timers &timers, std::function<void(const IterationReport &)> report)
@@ -157,7 +150,7 @@ void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcom
     restrain(now.at, now.state, start, time, iteration == 1 && !now.has_trial);
     const auto n_before = form_->counters().n_iterations;
     const std::vector<double> increment =
-        solve_linear(now.at, linear_tolerance(now.at, last_norm, settled, !now.has_trial && has_friction(model_)));
+        solve_linear(now.at, linear_tolerance(now.at, last_norm, settled, !now.has_trial && model_.has_friction()));
     outcome.n_iterations = iteration;
     outcome.n_linear_iterations += static_cast<int>(form_->counters().n_iterations - n_before);
     ++counters_.n_newton_iterations;
@@ -205,7 +198,7 @@ Newton::Iterate Newton::begin(const State &start, double time, const State *gues
   detect(out.state);
   Closed touching;
   // FreeMotions chooses by itself what closes first where forces move bodies.
-  if (!guess && !free_motions_.any() && (!has_friction(model_) || nothing_closed()))
+  if (!guess && !free_motions_.any() && (!model_.has_friction() || nothing_closed()))
   {
     const State approach = predictor_.approach(start, time);
     touching = predictor_.touching(start, approach);
@@ -238,23 +231,27 @@ NewtonOutcome Newton::solve(State &state, double from, double to)
 {
   NewtonOutcome outcome;
   const State start = state;
-  std::optional<State> guess = predictor_.guess(start, from, to);
-  while (true)
+  const std::optional<State> guess = predictor_.guess(start, from, to);
+  std::vector<const State *> beginnings{nullptr};
+  // Where nodes slide with friction from face to face a guess may lead to another solution (ironing would end in a
+  // fold): it is the second try there.
+  if (guess)
+    beginnings.insert(model_.small_strain() || !model_.has_friction() ? beginnings.begin() : beginnings.end(), &*guess);
+  for (const State *beginning : beginnings)
+  {
+    if (beginning != beginnings.front())
+      begin_increment(start, reach_);
     try
     {
-      attempt(state, start, to, guess ? &*guess : nullptr, outcome);
+      attempt(state, start, to, beginning, outcome);
       predictor_.remember(start, from, to);
       break;
     }
     catch (const NumericalFailure &failure)
     {
       outcome.cause = failure.what();
-      if (!guess)
-        break;
-      // A guess may lead astray where nodes change faces: the increment is tried without.
-      guess.reset();
-      begin_increment(start, reach_);
     }
+  }
   return outcome;
 }
 } // namespace amontons
