@@ -1,5 +1,7 @@
 #include "amontons/bulk/surface_extraction.h"
 
+#include "amontons/base/disjoint_sets.h"
+
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -181,21 +183,15 @@ std::vector<Index> bodies_of_faces(const Mesh &mesh, const Surface &surface)
 {
   std::vector<Index> parent(static_cast<std::size_t>(mesh.n_nodes()));
   std::iota(parent.begin(), parent.end(), 0);
-  const auto root_of = [&parent](Index node)
-  {
-    while (parent[node] != node)
-      node = parent[node] = parent[parent[node]];
-    return node;
-  };
   for (Index c = 0; c < mesh.cells.size(); ++c)
     for (const Index node : mesh.cells[c])
     {
-      const Index a = root_of(mesh.cells[c][0]), b = root_of(node);
+      const Index a = find_root(parent, mesh.cells[c][0]), b = find_root(parent, node);
       parent[std::max(a, b)] = std::min(a, b);
     }
   std::vector<Index> bodies;
   for (Index f = 0; f < surface.n_faces(); ++f)
-    bodies.push_back(root_of(static_cast<Index>(surface.node_ids[surface.face(f)[0]])));
+    bodies.push_back(find_root(parent, static_cast<Index>(surface.node_ids[surface.face(f)[0]])));
   return bodies;
 }
 

@@ -1,5 +1,6 @@
 #include "amontons/detection/self_contact_roles.h"
 
+#include "amontons/base/disjoint_sets.h"
 #include "amontons/base/error.h"
 
 #include <algorithm>
@@ -19,14 +20,6 @@ constexpr double finer = 0.9;
 bool contains(std::span<const Index> nodes, Index node)
 {
   return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
-}
-
-// Representative of a node's set; ways are shortened as they are gone.
-Index root_of(std::vector<Index> &parent, Index node)
-{
-  while (parent[node] != node)
-    node = parent[node] = parent[parent[node]];
-  return node;
 }
 } // namespace
 
@@ -134,10 +127,10 @@ void Roles::count_zones(const Pairing &pairing, std::span<const Eigen::Vector3f>
     {
       ++n_zones_;
       visit_links(pairing, normals, node,
-                  [&](Index other, bool) { parent[root_of(parent, other)] = root_of(parent, node); });
+                  [&](Index other, bool) { parent[find_root(parent, other)] = find_root(parent, node); });
     }
   for (Index node = 0; node < surface_.n_nodes(); ++node)
-    if (pairing[node].face >= 0 && root_of(parent, node) != node)
+    if (pairing[node].face >= 0 && find_root(parent, node) != node)
       --n_zones_;
 }
 

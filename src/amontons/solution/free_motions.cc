@@ -1,5 +1,7 @@
 #include "amontons/solution/free_motions.h"
 
+#include "amontons/base/disjoint_sets.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -26,13 +28,6 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd &gram)
   while (n < gram.rows() && eigen.eigenvalues()[n] < limit)
     ++n;
   return eigen.eigenvectors().leftCols(n);
-}
-
-int find_root(std::vector<int> &parent, int i)
-{
-  while (parent[i] != i)
-    i = parent[i] = parent[parent[i]];
-  return i;
 }
 } // namespace
 
