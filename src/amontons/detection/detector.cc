@@ -302,30 +302,7 @@ void SurfaceDetector::summarise()
   report.distance = distance_.w;
   report.distance_face = distance_.face;
   report.seconds = timers_.seconds();
-  std::array<Index, 5> by_kind{};
-  std::array<Index, 6> by_reason{};
-  for (Index node = 0; node < impactor_.n_nodes(); ++node)
-  {
-    const Pair &pair = pairing_[node];
-    ++by_kind[static_cast<std::size_t>(pair.kind)];
-    ++by_reason[static_cast<std::size_t>(pair.reason)];
-    if (pair.kind == PairKind::none || !(pair.gap < 0))
-      continue;
-    ++report.n_penetrations;
-    if (pair.gap < report.deepest)
-    {
-      report.deepest = pair.gap;
-      report.deepest_node = node;
-    }
-  }
-  report.n_pairs = by_reason[0];
-  const std::array<const char *, 5> kinds{"none", "face", "edge", "vertex", "extension"};
-  const std::array<const char *, 6> reasons{"paired", "outside_box", "too_far", "behind", "past_end", "target_side"};
-  for (std::size_t i = 1; i < kinds.size(); ++i)
-    report.pairs_by_kind[kinds[i]] = by_kind[i];
-  for (std::size_t i = 1; i < reasons.size(); ++i)
-    if (i < 5 || roles_)
-      report.unpaired_by_reason[reasons[i]] = by_reason[i];
+  count_pairs(pairing_, roles_.has_value(), report);
   if (roles_)
     summarise_self_contact();
   if (report.deepest_node >= 0)

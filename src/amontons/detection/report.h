@@ -1,5 +1,6 @@
 #pragma once
 #include "amontons/base/ids.h"
+#include "amontons/surface/pairing.h"
 
 #include <array>
 #include <map>
@@ -32,4 +33,8 @@ struct DetectionReport
   std::optional<SelfContactReport> self_contact;
   std::map<std::string, double> seconds; ///< per step: "bounds", "fill", "nearest", "projection"
 };
+
+/// Counts the pairs by kind, the nodes without one by reason, and the penetrations.
+/// @param self_contact whether nodes may be without a pair because their side is the target
+void count_pairs(const Pairing &pairing, bool self_contact, DetectionReport &report);
 } // namespace amontons
