@@ -196,6 +196,8 @@ int solve(const Mesh &mesh, BodyAssembly &assembly, const std::vector<bool> &hel
     Eigen::SparseMatrix<double> K = global_matrix(mesh, assembly);
     K.prune([&](Eigen::Index i, Eigen::Index j, double) { return i == j || (!held[i] && !held[j]); });
     Eigen::SparseLU<Eigen::SparseMatrix<double>> solver(K);
+    if (solver.info() != Eigen::Success)
+      return -1;
     const Eigen::VectorXd du = solver.solve(rhs);
     double largest = 0;
     for (std::size_t i = 0; i < u.size(); ++i)

@@ -2,17 +2,14 @@
 // written a second time here, with shape functions and quadrature of its own; derivatives are complex steps.
 #include "amontons/bulk/cell_finite.h"
 #include "amontons/bulk/cell_small.h"
+#include "random_cell.h"
 
 #include <gmock/gmock.h>
-
-#include <random>
 
 namespace amontons
 {
 namespace
 {
-using Complex = std::complex<double>;
-
 struct Rule
 {
   std::vector<Eigen::Vector3d> points;
@@ -58,9 +55,6 @@ Rule rule_of()
   else
     return {{Eigen::Vector3d::Constant(1.0 / (Cell::dim + 1))}, {Cell::dim == 2 ? 0.5 : 1.0 / 6}};
 }
-
-/// Corners of the reference cell in the order of Gmsh.
-const double corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 
 template<class Cell, typename Scalar>
 Scalar shape_function(int a, const Eigen::Matrix<Scalar, 3, 1> &x)
@@ -180,33 +174,9 @@ Complex energy(const Points<Cell> &points, const ElasticModuli &moduli, bool mea
 }
 
 template<class Cell>
-class CellDerivatives : public testing::Test
+class CellDerivatives : public testing::Test, protected RandomCell<Cell>
 {
 protected:
-  using NodalValues = typename Cell::template NodalValues<double>;
-  using ComplexValues = typename Cell::template NodalValues<Complex>;
-
-  static NodalValues random_values(unsigned seed, double size)
-  {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> value(-size, size);
-    return NodalValues::NullaryExpr([&] { return value(random); });
-  }
-  static NodalValues reference(unsigned seed)
-  {
-    NodalValues X = random_values(seed, 0.15);
-    for (int a = 0; a < Cell::nodes; ++a)
-      for (int d = 0; d < Cell::dim; ++d)
-        X(d, a) += Cell::simplex ? (a == d + 1) : corners[a][d];
-    X.row(0).array() += 0.4; // a radius
-    return X;
-  }
-  static ComplexValues step(const NodalValues &u, int unknown)
-  {
-    ComplexValues out = u.template cast<Complex>();
-    out(unknown % Cell::dim, unknown / Cell::dim) += Complex(0, 1e-40);
-    return out;
-  }
   static std::vector<bool> mean_dilatation()
   {
     return Cell::plane_stress ? std::vector<bool>{false} : std::vector<bool>{false, true};
@@ -232,7 +202,7 @@ TYPED_TEST(CellDerivatives, ForceIsTheDerivativeOfTheEnergy)
     for (unsigned seed = 1; seed <= 5; ++seed)
     {
       const auto X = this->reference(seed);
-      const auto u = this->random_values(seed + 100, 0.1);
+      const auto u = this->values(seed + 100, 0.1);
       const auto points = this->tables_.at(X);
       const FiniteStrainCell<Cell, double> cell(points, this->moduli_, mean, u);
       ASSERT_TRUE(cell.valid());
@@ -250,7 +220,7 @@ TYPED_TEST(CellDerivatives, TangentIsTheDerivativeOfTheForce)
   for (const bool mean : this->mean_dilatation())
     for (unsigned seed = 1; seed <= 5; ++seed)
     {
-      const auto u = this->random_values(seed + 100, 0.1);
+      const auto u = this->values(seed + 100, 0.1);
       const auto points = this->tables_.at(this->reference(seed));
       const FiniteStrainCell<Cell, double> cell(points, this->moduli_, mean, u);
       ASSERT_TRUE(cell.valid());
@@ -275,7 +245,7 @@ TYPED_TEST(CellDerivatives, SmallStrainIsTheLimitOfFiniteStrain)
     const FiniteStrainCell<Cell, double> cell(points, this->moduli_, mean, zero);
     EXPECT_LT((linear - cell.tangent()).norm(), 1e-14 * linear.norm());
 
-    const auto u = this->random_values(9, 1.0);
+    const auto u = this->values(9, 1.0);
     const FiniteStrainCell<Cell, Complex> stepped(points, this->moduli_, mean,
                                                   u.template cast<Complex>() * Complex(0, 1e-40));
     const auto stress = small_strain_stress<Cell>(points, this->moduli_, u);
@@ -290,7 +260,7 @@ TYPED_TEST(CellDerivatives, StressDoesTheWorkOfTheForce)
   for (const bool mean : this->mean_dilatation())
   {
     const auto X = this->reference(4);
-    const auto u = this->random_values(104, 0.1);
+    const auto u = this->values(104, 0.1);
     const auto points = this->tables_.at(X);
     const FiniteStrainCell<Cell, double> cell(points, this->moduli_, mean, u);
     const auto s = cell.stress();

@@ -93,12 +93,16 @@ struct BodyAssembly::Impl
        const std::vector<BoundaryOptions> &boundary, std::span<const Index> subdomain_of_cell);
   void make_blocks(const Mesh &mesh, Kinematics kinematics, const std::vector<BodyOptions> &bodies,
                    std::span<const Index> subdomain_of_cell);
-  bool add_cell_forces(std::span<const double> displacement, std::span<double> force) const;
+  bool add_cell_forces(bool of_linear, std::span<const double> displacement, std::span<double> force) const;
+  bool add_cell_tangents(bool of_linear, std::span<const double> displacement);
+  [[nodiscard]] bool has_blocks(bool linear) const;
+  void start_tangent();
 
   Strain strain;
   std::vector<double> points;
   std::vector<Index> body_of_cell, deformable_body_of_cell;
   std::vector<SubdomainMatrix> subdomains;
+  std::vector<SubdomainMatrix> linear; ///< what linear laws give to `subdomains`, where other things give to them too
   std::vector<std::unique_ptr<CellBlock>> blocks;
   Loads loads;
   bool assembled = false;
@@ -140,15 +144,49 @@ void BodyAssembly::Impl::make_blocks(const Mesh &mesh, Kinematics kinematics, co
     const auto [subdomain, body, shape] = key;
     list.subdomain = subdomain;
     list.moduli = elastic_moduli(bodies[body], strain);
+    if (bodies[body].material.law == MaterialLaw::von_mises)
+      list.hardening = hardening(bodies[body], strain, kinematics);
     list.mean_dilatation = mean_dilatation(bodies[body], shape, kinematics);
     blocks.push_back(make_cell_block(shape, kinematics, strain, std::move(list), points, subdomains[subdomain]));
   }
 }
 
-bool BodyAssembly::Impl::add_cell_forces(std::span<const double> displacement, std::span<double> force) const
+bool BodyAssembly::Impl::has_blocks(bool linear) const
+{
+  return std::any_of(blocks.begin(), blocks.end(), [&](const auto &block) { return block->is_linear() == linear; });
+}
+
+bool BodyAssembly::Impl::add_cell_forces(bool of_linear, std::span<const double> displacement,
+                                         std::span<double> force) const
 {
   return std::all_of(blocks.begin(), blocks.end(),
-                     [&](const auto &block) { return block->add_force(displacement, force); });
+                     [&](const auto &block)
+                     { return block->is_linear() != of_linear || block->add_force(displacement, force); });
+}
+
+bool BodyAssembly::Impl::add_cell_tangents(bool of_linear, std::span<const double> displacement)
+{
+  return std::all_of(blocks.begin(), blocks.end(),
+                     [&](const auto &block) {
+                       return block->is_linear() != of_linear ||
+                              block->add_tangent(displacement, subdomains[block->list().subdomain]);
+                     });
+}
+
+/// Leaves in `subdomains` what linear laws give, which needs no displacement.
+void BodyAssembly::Impl::start_tangent()
+{
+  if (assembled && !linear.empty())
+  {
+    for (std::size_t s = 0; s < subdomains.size(); ++s)
+      subdomains[s].values = linear[s].values;
+    return;
+  }
+  for (SubdomainMatrix &matrix : subdomains)
+    std::fill(matrix.values.begin(), matrix.values.end(), 0.0);
+  (void)add_cell_tangents(true, {});
+  if (has_blocks(true) && (has_blocks(false) || !loads.has_constant_tangent()))
+    linear = subdomains;
 }
 
 BodyAssembly::BodyAssembly(const Mesh &mesh, Kinematics kinematics, Strain strain,
@@ -167,17 +205,15 @@ std::span<const SubdomainMatrix> BodyAssembly::subdomains() const
 
 bool BodyAssembly::tangent_is_constant() const
 {
-  return impl_->strain == Strain::small && impl_->loads.has_constant_tangent();
+  return !impl_->has_blocks(false) && impl_->loads.has_constant_tangent();
 }
 
 bool BodyAssembly::assemble_tangent(std::span<const double> displacement, double time)
 {
   AMONTONS_ASSERT(displacement.size() == impl_->points.size());
-  for (SubdomainMatrix &matrix : impl_->subdomains)
-    std::fill(matrix.values.begin(), matrix.values.end(), 0.0);
-  for (const auto &block : impl_->blocks)
-    if (!block->add_tangent(displacement, impl_->subdomains[block->list().subdomain]))
-      return false;
+  impl_->start_tangent();
+  if (!impl_->add_cell_tangents(false, displacement))
+    return false;
   impl_->loads.add_tangent(displacement, time, impl_->subdomains);
   impl_->assembled = true;
   return true;
@@ -191,13 +227,14 @@ bool BodyAssembly::forces(std::span<const double> displacement, double time, std
   std::fill(internal.begin(), internal.end(), 0.0);
   std::fill(external.begin(), external.end(), 0.0);
   impl_->loads.add_external(displacement, time, external);
-  if (tangent_is_constant() && impl_->assembled)
-  {
-    for (const SubdomainMatrix &matrix : impl_->subdomains)
-      multiply_add(matrix, displacement, internal);
+  const bool of_loads_too = tangent_is_constant() && impl_->assembled;
+  for (const SubdomainMatrix &matrix : of_loads_too ? impl_->subdomains : impl_->linear)
+    multiply_add(matrix, displacement, internal);
+  if (of_loads_too)
     return true;
-  }
-  if (!impl_->add_cell_forces(displacement, internal))
+  if (impl_->linear.empty() && !impl_->add_cell_forces(true, displacement, internal))
+    return false;
+  if (!impl_->add_cell_forces(false, displacement, internal))
     return false;
   impl_->loads.add_internal(displacement, time, internal);
   return true;
@@ -208,6 +245,23 @@ std::vector<double> BodyAssembly::stress(std::span<const double> displacement) c
   std::vector<double> out(6 * impl_->body_of_cell.size(), 0);
   for (const auto &block : impl_->blocks)
     block->write_stress(displacement, out);
+  return out;
+}
+
+void BodyAssembly::commit(std::span<const double> displacement)
+{
+  for (const auto &block : impl_->blocks)
+    block->commit(displacement);
+}
+
+std::vector<double> BodyAssembly::plastic_strain() const
+{
+  if (std::none_of(impl_->blocks.begin(), impl_->blocks.end(),
+                   [](const auto &block) { return block->list().hardening.has_value(); }))
+    return {};
+  std::vector<double> out(impl_->body_of_cell.size(), 0);
+  for (const auto &block : impl_->blocks)
+    block->write_plastic_strain(out);
   return out;
 }
 

@@ -32,20 +32,29 @@ public:
   /// Stiffness d(internal - external)/du of each subdomain, as the last assemble_tangent() left it.
   [[nodiscard]] std::span<const SubdomainMatrix> subdomains() const;
 
-  /// True in small strain without follower loads: one assemble_tangent() serves the whole run.
+  /// True in small strain of elastic bodies without loads that change: one assemble_tangent() serves the whole run.
   [[nodiscard]] bool tangent_is_constant() const;
 
+  /// Cells of a linear law are assembled at the first call only.
   /// @return false where a cell is turned inside out (det F <= 0); then the values are not to be used
   [[nodiscard]] bool assemble_tangent(std::span<const double> displacement, double time);
 
-  /// Internal and external forces, overwritten; springs are internal. Once the constant tangent is assembled the
-  /// internal forces are its product with the displacement. @return as above
+  /// Internal and external forces, overwritten; springs are internal. Once a tangent is assembled the internal forces
+  /// of linear laws are its product with the displacement. @return as above
   [[nodiscard]] bool forces(std::span<const double> displacement, double time, std::span<double> internal,
                             std::span<double> external) const;
 
   /// Cauchy stress, cell means (in finite strain over the current volume), [n_cells * 6]: xx, yy, zz, xy, yz, xz; zero
   /// in rigid cells. @throws NumericalFailure where a cell is turned inside out
   [[nodiscard]] std::vector<double> stress(std::span<const double> displacement) const;
+
+  /// Takes a displacement as the end of an increment. Until the next call all of the above starts from the plastic
+  /// strain that is reached there; a displacement tried in between leaves no trace.
+  void commit(std::span<const double> displacement);
+
+  /// Equivalent plastic strain at the last commit, cell means, zero in cells of other laws. [n_cells], or empty where
+  /// no body is plastic
+  [[nodiscard]] std::vector<double> plastic_strain() const;
 
   /// Body of each cell, position in `bodies`, -1 for none. [n_cells]
   [[nodiscard]] std::span<const Index> body_of_cell() const;

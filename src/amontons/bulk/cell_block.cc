@@ -1,6 +1,7 @@
 #include "amontons/bulk/cell_block.h"
 
 #include "amontons/bulk/cell_finite.h"
+#include "amontons/bulk/cell_plastic.h"
 #include "amontons/bulk/cell_small.h"
 
 namespace amontons
@@ -72,6 +73,7 @@ public:
   using Base = TypedBlock<Cell>;
   using Base::Base;
 
+  [[nodiscard]] bool is_linear() const override { return true; }
   [[nodiscard]] bool add_tangent(std::span<const double>, SubdomainMatrix &matrix) const override
   {
     for (std::size_t c = 0; c < this->size(); ++c)
@@ -108,6 +110,7 @@ class FiniteStrainBlock final : public TypedBlock<Cell>
 public:
   using TypedBlock<Cell>::TypedBlock;
 
+  [[nodiscard]] bool is_linear() const override { return false; }
   [[nodiscard]] bool add_tangent(std::span<const double> displacement, SubdomainMatrix &matrix) const override
   {
     return each(displacement, [&](std::size_t c, const auto &cell) { this->scatter(c, cell.tangent(), matrix); });
@@ -139,10 +142,82 @@ private:
   }
 };
 
+/// Stress and tangent are functions of the displacement and of the committed history, which nothing but commit()
+/// changes.
+template<class Cell>
+class PlasticBlock final : public TypedBlock<Cell>
+{
+public:
+  using Base = TypedBlock<Cell>;
+
+  PlasticBlock(CellList list, std::span<const double> points, const SubdomainMatrix &matrix)
+    : Base(std::move(list), points, matrix)
+    , history_(this->size() * Cell::points)
+  {
+  }
+
+  [[nodiscard]] bool is_linear() const override { return false; }
+  [[nodiscard]] bool add_tangent(std::span<const double> displacement, SubdomainMatrix &matrix) const override
+  {
+    each(displacement, [&](std::size_t c, const auto &cell) { this->scatter(c, cell.tangent(), matrix); });
+    return true;
+  }
+  [[nodiscard]] bool add_force(std::span<const double> displacement, std::span<double> force) const override
+  {
+    each(displacement, [&](std::size_t c, const auto &cell) { this->scatter(c, cell.force(), force); });
+    return true;
+  }
+  void write_stress(std::span<const double> displacement, std::span<double> stress) const override
+  {
+    each(displacement, [&](std::size_t c, const auto &cell) { this->write(c, cell.stress(), stress); });
+  }
+  void commit(std::span<const double> displacement) override
+  {
+    each(displacement,
+         [&](std::size_t c, const auto &cell)
+         {
+           for (int q = 0; q < Cell::points; ++q)
+             history_[c * Cell::points + q] = cell.history(q);
+         });
+  }
+  void write_plastic_strain(std::span<double> strain) const override
+  {
+    for (std::size_t c = 0; c < this->size(); ++c)
+    {
+      double sum = 0, volume = 0;
+      const CellPoints<Cell> points = this->geometry(c);
+      for (int q = 0; q < Cell::points; ++q)
+      {
+        sum += points[q].weight * history_[c * Cell::points + q].equivalent;
+        volume += points[q].weight;
+      }
+      strain[this->list_.cells[c]] = sum / volume;
+    }
+  }
+
+private:
+  template<class Action>
+  void each(std::span<const double> displacement, const Action &action) const
+  {
+    for (std::size_t c = 0; c < this->size(); ++c)
+    {
+      const CellPoints<Cell> points = this->geometry(c);
+      action(c,
+             PlasticCell<Cell, double>(points, this->list_.moduli, *this->list_.hardening, this->list_.mean_dilatation,
+                                       &history_[c * Cell::points], this->gather(c, displacement)));
+    }
+  }
+
+  std::vector<PlasticHistory<double>> history_; ///< [n_cells * Cell::points]
+};
+
 template<class Cell>
 std::unique_ptr<CellBlock> make(Strain strain, CellList list, std::span<const double> points,
                                 const SubdomainMatrix &matrix)
 {
+  if constexpr (!Cell::plane_stress)
+    if (list.hardening)
+      return std::make_unique<PlasticBlock<Cell>>(std::move(list), points, matrix);
   if (strain == Strain::small)
     return std::make_unique<SmallStrainBlock<Cell>>(std::move(list), points, matrix);
   return std::make_unique<FiniteStrainBlock<Cell>>(std::move(list), points, matrix);

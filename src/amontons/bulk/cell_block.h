@@ -1,8 +1,9 @@
 #pragma once
 #include "amontons/bulk/cell_pattern.h"
-#include "amontons/bulk/material.h"
+#include "amontons/bulk/material_von_mises.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct CellList
   std::vector<Index> nodes; ///< [n_cells * n_cell_nodes]
   Index subdomain = 0;
   ElasticModuli moduli;
+  std::optional<Hardening> hardening; ///< of a plastic body
   bool mean_dilatation = false;
 };
 
@@ -30,6 +32,13 @@ public:
   /// Writes the rows of its own cells: xx, yy, zz, xy, yz, xz.
   virtual void write_stress(std::span<const double> displacement, std::span<double> stress) const = 0;
 
+  /// Takes the displacement as the end of an increment: the next ones start from its plastic strain.
+  virtual void commit(std::span<const double> /*displacement*/) {}
+  /// Writes the rows of its own cells: mean equivalent plastic strain at the last commit.
+  virtual void write_plastic_strain(std::span<double> /*strain*/) const {}
+
+  /// Whether the force is the product of a constant stiffness with the displacement.
+  [[nodiscard]] virtual bool is_linear() const = 0;
   [[nodiscard]] virtual const CellList &list() const = 0;
 };
 

@@ -1,4 +1,4 @@
-#include "amontons/bulk/material.h"
+#include "amontons/bulk/material_von_mises.h"
 
 namespace amontons
 {
@@ -16,5 +16,23 @@ ElasticModuli elastic_moduli(const BodyOptions &body, Strain strain)
                                     "': poisson must lie in (-1, 0.5); for a nearly incompressible body take 0.499 or "
                                     "0.4999 with mean dilatation");
   return {material.young / (2 * (1 + material.poisson)), material.young / (3 * (1 - 2 * material.poisson))};
+}
+
+Hardening hardening(const BodyOptions &body, Strain strain, Kinematics kinematics)
+{
+  const auto fail = [&](const std::string &what) { throw UserError(body.where, "body '" + body.name + "': " + what); };
+  if (strain == Strain::finite)
+    fail("von-mises holds in small strain only; finite strain has the law neo-hookean, which is elastic");
+  if (kinematics == Kinematics::plane_stress)
+    fail("von-mises is not made for plane stress; take plane strain, axisymmetry or 3D");
+  const MaterialOptions &material = body.material;
+  if (!(material.yield_stress > 0) || !std::isfinite(material.yield_stress))
+    fail("yield-stress must be positive");
+  for (const double constant :
+       {material.isotropic_hardening, material.saturation_gain, material.saturation_rate, material.kinematic_hardening})
+    if (!(constant >= 0) || !std::isfinite(constant))
+      fail("constants of hardening must not be negative");
+  return {material.yield_stress, material.isotropic_hardening, material.saturation_gain, material.saturation_rate,
+          material.kinematic_hardening};
 }
 } // namespace amontons

@@ -37,6 +37,7 @@ enum class MaterialLaw
 {
   linear_elastic,
   neo_hookean,
+  von_mises, ///< elastic and plastic, small strain
   rigid
 };
 
@@ -45,6 +46,13 @@ struct MaterialOptions
   MaterialLaw law = MaterialLaw::linear_elastic;
   double young = 0;   ///< stress
   double poisson = 0; ///< (-1, 0.5)
+  // von Mises: the yield stress is yield_stress + isotropic_hardening p + saturation_gain (1 - exp(-saturation_rate
+  // p)), p the equivalent plastic strain
+  double yield_stress = 0;        ///< stress
+  double isotropic_hardening = 0; ///< stress
+  double saturation_gain = 0;     ///< stress
+  double saturation_rate = 0;     ///< 1
+  double kinematic_hardening = 0; ///< stress: slope of the uniaxial stress against plastic strain
 };
 
 struct BodyOptions

@@ -48,6 +48,8 @@ void check_bodies(const Value &root, const Deck &deck)
       law.fail("linear-elastic holds in strain: small only; use neo-hookean with strain: finite");
     if (deck.strain == Strain::small && given == MaterialLaw::neo_hookean)
       law.fail("neo-hookean wants strain: finite; use linear-elastic with strain: small");
+    if (deck.strain == Strain::finite && given == MaterialLaw::von_mises)
+      law.fail("von-mises holds in strain: small only");
   }
 }
 

@@ -89,17 +89,17 @@ Section<SolverOptions> solver_keys()
 
 Section<OutputOptions> output_keys()
 {
-  const std::vector<std::string> words{"displacement", "stress"};
+  const std::vector<std::string> words{"displacement", "stress", "plastic-strain"}; // in the order of OutputField
   Section<OutputOptions> keys;
   keys.key(Section<OutputOptions>::row(
-      "fields", "list of choices", "", joined(words), otherwise("[displacement, stress]"), "",
-      "what the pictures of the bodies show",
+      "fields", "list of choices", "", joined(words), otherwise("[displacement, stress, plastic-strain]"), "",
+      "what the pictures of the bodies show; plastic-strain: the equivalent one, where a body is plastic",
       [words](const Value &value, OutputOptions &output, ReadContext &)
       {
         require_list(value, "fields");
         output.fields.clear();
         for (const Value &item : value.items)
-          output.fields.push_back(to_choice(item, words) == 0 ? OutputField::displacement : OutputField::stress);
+          output.fields.push_back(static_cast<OutputField>(to_choice(item, words)));
       }));
   keys.integer("every", &OutputOptions::every, not_negative, optional,
                "pictures of every n-th increment and of the last; 0: none");

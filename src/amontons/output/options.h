@@ -7,12 +7,13 @@ namespace amontons
 enum class OutputField
 {
   displacement,
-  stress
+  stress,
+  plastic_strain
 };
 
 struct OutputOptions
 {
-  std::vector<OutputField> fields{OutputField::displacement, OutputField::stress};
+  std::vector<OutputField> fields{OutputField::displacement, OutputField::stress, OutputField::plastic_strain};
   int every = 1; ///< write pictures every n increments, and the last; 0: never
 };
 } // namespace amontons

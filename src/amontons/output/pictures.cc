@@ -75,6 +75,12 @@ VtuGrid body_grid(const SolutionState &state, const std::vector<BodyOptions> &bo
     grid.add_cell_data("stress", 6, stress, "xx,yy,zz,xy,yz,xz");
     grid.add_cell_data("von_mises", 1, equivalent);
   }
+  if (wanted(OutputField::plastic_strain) && !state.plastic_strain.empty())
+  {
+    std::vector<double> strain = state.plastic_strain;
+    strain.resize(grid.n_cells(), 0.0);
+    grid.add_cell_data("plastic_strain", 1, strain);
+  }
   return grid;
 }
 

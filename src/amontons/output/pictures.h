@@ -11,7 +11,7 @@
 
 namespace amontons
 {
-/// The bodies of a state as a grid in reference coordinates: displacement and stress as asked for, body of each cell.
+/// The bodies of a state as a grid in reference coordinates: the fields asked for, body of each cell.
 /// Facets of a rigid body meshed by its surface alone are cells too.
 VtuGrid body_grid(const SolutionState &state, const std::vector<BodyOptions> &bodies,
                   const std::vector<OutputField> &fields);

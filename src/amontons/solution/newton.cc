@@ -8,8 +8,8 @@ namespace amontons
 namespace
 {
 constexpr int max_halvings = 8;
-/// In finite strain a step that makes the residual grow by more than this is halved, so many times at the most.
-/// Statuses that change may well make it grow for once.
+/// Where the bodies are not linear a step that makes the residual grow by more than this is halved, so many times at
+/// the most. Statuses that change may well make it grow for once.
 constexpr double allowed_growth = 2;
 constexpr int max_damping = 4;
 /// Times a set of statuses may come back before the increment is given up.
@@ -119,7 +119,7 @@ Newton::Iterate Newton::step_from(const Iterate &from, const State &start, doubl
     next.state = model_.prescribe(model_.advance(from.state, increment, share), time, share);
     detect(next.state);
     next.at = evaluate(next.state, start, time, {}, false);
-    const bool wild = !model_.small_strain() && from.at.pending_motion == 0 && k < max_damping &&
+    const bool wild = !model_.bodies().tangent_is_constant() && from.at.pending_motion == 0 && k < max_damping &&
                       next.at.norm > allowed_growth * from.at.norm;
     if (next.at.valid && !wild)
       return next;
@@ -172,7 +172,7 @@ void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcom
     report_(report);
     // While prescribed motion was to come, the residual said nothing of the forces.
     last_norm = now.at.pending_motion > 0 ? next.at.norm : now.at.norm;
-    settled = model_.small_strain() && report.n_status_changes <= few_changes * report.n_active;
+    settled = model_.bodies().tangent_is_constant() && report.n_status_changes <= few_changes * report.n_active;
     now = std::move(next);
     if (n_cycles > max_cycles)
       throw NumericalFailure("statuses or faces turn in a circle" +

@@ -22,9 +22,9 @@ struct NewtonOutcome
 };
 
 /// Semismooth Newton method for G(x) + F(x, lambda) = 0 over one increment: statuses are decided by sigma at each
-/// iteration (Alart, Curnier 1991). Full steps; a step is halved only where a cell would turn inside out, where in
-/// finite strain the residual would run away, or to leave a cycle of statuses. Converged when the residual, with r
-/// F_lambda for the constraints, is below the tolerance times the forces present.
+/// iteration (Alart, Curnier 1991). Full steps; a step is halved only where a cell would turn inside out, where the
+/// residual of bodies that are not linear would run away, or to leave a cycle of statuses. Converged when the residual,
+/// with r F_lambda for the constraints, is below the tolerance times the forces present.
 class Newton
 {
 public:

@@ -63,6 +63,7 @@ struct SolutionState
   /// Cauchy stress, cell means, [n_cells * 6]: xx, yy, zz, xy, yz, xz (axisymmetry: zz is the hoop). Zero in rigid
   /// cells.
   std::vector<double> stress;
+  std::vector<double> plastic_strain; ///< equivalent, cell means, [n_cells]; empty where no body is plastic
   std::vector<ContactResult> contacts;
   std::vector<Reaction> reactions;
 };

@@ -200,6 +200,7 @@ private:
     const auto u = model_->mesh_part(state_.displacement);
     out.displacement.assign(u.begin(), u.end());
     out.stress = model_->bodies().stress(u);
+    out.plastic_strain = model_->bodies().plastic_strain();
     const State &start = increment > 0 ? start_ : state_;
     for (ContactInterface &contact : model_->contacts())
       out.contacts.push_back(contact.result(state_.displacement, start.displacement, state_.multipliers));
@@ -215,6 +216,7 @@ private:
     start_ = std::move(state_);
     state_ = std::move(next);
     time_ = time;
+    model_->bodies().commit(model_->mesh_part(state_.displacement));
     SolutionState out = solution(increment, model_->reactions(newton_->residual()));
     for (std::size_t c = 0; c < out.contacts.size(); ++c)
       model_->contacts()[c].commit(out.contacts[c]);
