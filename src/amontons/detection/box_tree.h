@@ -73,6 +73,11 @@ public:
   template<typename Visitor, typename Filter>
   void visit_within(const double *x, const double &squared_bound, Visitor &&visit, Filter &&keep) const;
 
+  /// Visits the faces whose boxes meet a box, and maybe some that miss it by round-off.
+  /// @param visit called with the slot
+  template<typename Visitor>
+  void visit_meeting(const Box &box, Visitor &&visit) const;
+
 private:
   using FloatPoint = std::array<float, static_cast<std::size_t>(dim)>;
 

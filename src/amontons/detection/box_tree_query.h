@@ -1,6 +1,10 @@
 #pragma once
 #include "amontons/detection/box_tree.h"
 
+#include <cmath>
+#include <limits>
+#include <utility>
+
 namespace amontons
 {
 template<int dim>
@@ -50,6 +54,45 @@ void BoxTree<dim>::visit_within(const double *x, const double &squared_bound, Vi
     else
       push_children(nodes_[level_begin_[entry.level] + entry.index], point, rounded_up(squared_bound), entry,
                     stack.data(), n_stacked);
+  }
+}
+
+template<int dim>
+template<typename Visitor>
+void BoxTree<dim>::visit_meeting(const Box &box, Visitor &&visit) const
+{
+  if (order_.empty())
+    return;
+  FloatPoint low = relative(box.data()), high = relative(box.data() + dim);
+  for (std::size_t c = 0; c < low.size(); ++c)
+  {
+    low[c] = std::nextafter(low[c], -std::numeric_limits<float>::infinity());
+    high[c] = std::nextafter(high[c], std::numeric_limits<float>::infinity());
+  }
+  const auto meets = [&](const BoxNode<dim> &node, int i)
+  {
+    bool out = true;
+    for (std::size_t c = 0; c < low.size(); ++c)
+      out = out && node.low[c][i] <= high[c] && node.high[c][i] >= low[c];
+    return out;
+  };
+  std::array<std::pair<std::int32_t, std::uint32_t>, static_cast<std::size_t>(width * 9)> stack;
+  int n_stacked = 0;
+  stack[n_stacked++] = {top_level(), 0};
+  while (n_stacked > 0)
+  {
+    const auto [level, index] = stack[--n_stacked];
+    const BoxNode<dim> &node = nodes_[level_begin_[level] + index];
+    for (int i = 0; i < width; ++i)
+    {
+      const auto child = static_cast<std::uint32_t>(index * width + i);
+      if (!meets(node, i))
+        continue;
+      if (level == 0)
+        visit(static_cast<Index>(child));
+      else
+        stack[n_stacked++] = {level - 1, child};
+    }
   }
 }
 

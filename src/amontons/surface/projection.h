@@ -59,6 +59,12 @@ inline std::array<Eigen::Vector3d, 2> face_tangents(const FaceCoordinates &face,
   return {(1 - t) * (x[1] - x[0]) + t * (x[2] - x[3]), (1 - s) * (x[3] - x[0]) + s * (x[2] - x[1])};
 }
 
+/// The middle of the local coordinates.
+inline LocalPoint face_centre(const FaceCoordinates &face)
+{
+  return face.n_nodes == 3 ? LocalPoint{1.0 / 3, 1.0 / 3} : LocalPoint{0.5, 0.5};
+}
+
 /// Outward unit normal: a segment's on the right hand of its direction, a 3D face's by its counter-clockwise nodes.
 /// Zero on a face of no area.
 inline Eigen::Vector3d face_normal(const FaceCoordinates &face, LocalPoint xi)

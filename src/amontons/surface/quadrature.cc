@@ -1,0 +1,58 @@
+#include "amontons/surface/quadrature.h"
+
+#include "amontons/base/error.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace amontons
+{
+namespace
+{
+constexpr int most_points = 16;
+
+/// Legendre's polynomial of degree n and its derivative.
+std::pair<double, double> legendre(int n, double z)
+{
+  double p = 1, before = 0;
+  for (int k = 1; k <= n; ++k)
+  {
+    const double next = ((2 * k - 1) * z * p - (k - 1) * before) / k;
+    before = p;
+    p = next;
+  }
+  return {p, n * (z * p - before) / (z * z - 1)};
+}
+
+std::vector<GaussPoint> make_rule(int n)
+{
+  std::vector<GaussPoint> out;
+  for (int i = 0; i < n; ++i)
+  {
+    double z = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
+    for (int step = 0; step < 8; ++step)
+    {
+      const auto [p, slope] = legendre(n, z);
+      z -= p / slope;
+    }
+    const double slope = legendre(n, z).second;
+    out.push_back({(1 - z) / 2, 1 / ((1 - z * z) * slope * slope)});
+  }
+  return out;
+}
+} // namespace
+
+const std::vector<GaussPoint> &gauss_rule(int n)
+{
+  static const auto rules = []
+  {
+    std::array<std::vector<GaussPoint>, most_points + 1> out;
+    for (int k = 1; k <= most_points; ++k)
+      out[k] = make_rule(k);
+    return out;
+  }();
+  AMONTONS_ASSERT(n >= 1 && n <= most_points);
+  return rules[n];
+}
+} // namespace amontons
