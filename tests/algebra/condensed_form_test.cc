@@ -70,7 +70,7 @@ protected:
     ConstraintPattern out;
     for (const Index node : nodes)
       for (int c = 0; c < dim(); ++c)
-        out.nodal[out.n_nodal++] = node * dim() + c;
+        out.nodal.push_back(node * dim() + c);
     for (int m = 0; m < dim(); ++m)
       out.multipliers[out.n_multipliers++] = position * dim() + m;
     return out;

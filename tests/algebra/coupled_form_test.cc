@@ -79,7 +79,7 @@ protected:
   {
     ConstraintPattern out;
     for (const Index nodal : {0, 1, 4, 5, 6, 7})
-      out.nodal[out.n_nodal++] = nodal;
+      out.nodal.push_back(nodal);
     out.multipliers = {2, 0, 0};
     out.n_multipliers = 2;
     return out;
@@ -96,8 +96,8 @@ protected:
   void add_block(Eigen::MatrixXd &to, const ConstraintPattern &p, const ConstraintValues &v) const
   {
     const Eigen::MatrixXd terms = dense_terms(layout_);
-    Eigen::MatrixXd rows(p.n_nodal, terms.cols());
-    for (int k = 0; k < p.n_nodal; ++k)
+    Eigen::MatrixXd rows(p.n_nodal(), terms.cols());
+    for (int k = 0; k < p.n_nodal(); ++k)
       rows.row(k) = terms.row(p.nodal[k]);
     const Index n = layout_.n_displacement_unknowns();
     to.topLeftCorner(n, n) += rows.transpose() * v.stiffness * rows;

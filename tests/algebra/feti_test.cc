@@ -165,7 +165,7 @@ protected:
       first += 2;
       for (const Index node : nodes)
         for (int c = 0; c < dim(); ++c)
-          pattern.nodal[pattern.n_nodal++] = node * dim() + c;
+          pattern.nodal.push_back(node * dim() + c);
       for (int m = 0; m < dim(); ++m)
         pattern.multipliers[pattern.n_multipliers++] = static_cast<Index>(patterns_.size()) * dim() + m;
       patterns_.push_back(pattern);

@@ -62,10 +62,13 @@ TEST_P(Kinematics, SecondDerivativesMatchComplexSteps)
       for (int t = 0; t < 2; ++t)
         turning[t].col(j) = measured.slip_direction[t].imag().head(n) / tiny;
     }
-    EXPECT_LT(difference(lin.gap_direction_gradient, hessian), 1e-10) << "seed " << seed;
-    EXPECT_LT(difference(lin.gap_direction_gradient, lin.gap_direction_gradient.transpose()), 1e-13);
+    // In small strain there is nothing to store.
+    const auto stored = [&](const ContactMatrix &m) { return m.size() > 0 ? m : ContactMatrix::Zero(n, n).eval(); };
+    const ContactMatrix gap_gradient = stored(lin.gap_direction_gradient);
+    EXPECT_LT(difference(gap_gradient, hessian), 1e-10) << "seed " << seed;
+    EXPECT_LT(difference(gap_gradient, gap_gradient.transpose()), 1e-13);
     for (int t = 0; t < lin.n_tangents(); ++t)
-      EXPECT_LT(difference(lin.slip_direction_gradient[t], turning[t]), 1e-10) << "seed " << seed;
+      EXPECT_LT(difference(stored(lin.slip_direction_gradient[t]), turning[t]), 1e-10) << "seed " << seed;
   }
 }
 

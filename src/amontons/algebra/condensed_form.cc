@@ -25,7 +25,7 @@ template<class Row>
 std::vector<Term> over_unknowns(const Layout &layout, const ConstraintPattern &pattern, const Row &row)
 {
   std::vector<Term> out;
-  for (int a = 0; a < pattern.n_nodal; ++a)
+  for (int a = 0; a < pattern.n_nodal(); ++a)
     if (row[a] != 0)
       for (const Term &term : layout.terms(pattern.nodal[a]))
         out.push_back({term.unknown, row[a] * term.coefficient});
@@ -105,7 +105,7 @@ void CondensedForm::eliminate()
       groups[k].positions.push_back(over_unknowns(layout_, patterns_[k], rows_[k].rows.row(r)));
       groups[k].forces.push_back(over_unknowns(layout_, patterns_[k], rows_[k].forces.col(r)));
     }
-    for (int a = 0; a < std::min(n, patterns_[k].n_nodal); ++a)
+    for (int a = 0; a < std::min(n, patterns_[k].n_nodal()); ++a)
       for (const Term &term : layout_.terms(patterns_[k].nodal[a]))
         if (!matrix_.blocks().is_shared(term.unknown))
           groups[k].own.push_back(term.unknown);
@@ -259,7 +259,7 @@ void CondensedForm::solve(std::span<const double> rhs, std::span<double> solutio
       rl[m] = rhs[layout_.multiplier(patterns_[k].multipliers[m])];
     size2 += (augmentation_[k] * rl).squaredNorm();
     const Eigen::VectorXd force = rows_[k].right_side_force * rl, gap = rows_[k].row_right_side * rl;
-    for (int a = 0; a < patterns_[k].n_nodal; ++a)
+    for (int a = 0; a < patterns_[k].n_nodal(); ++a)
       for (const Term &term : layout_.terms(patterns_[k].nodal[a]))
         forces[term.unknown] -= term.coefficient * force[a];
     right_side.insert(right_side.end(), gap.data(), gap.data() + gap.size());
@@ -294,8 +294,8 @@ void CondensedForm::solve(std::span<const double> rhs, std::span<double> solutio
   Eigen::Index row = 0;
   for (std::size_t k = 0; k < rows_.size(); ++k)
   {
-    Eigen::VectorXd du = Eigen::VectorXd::Zero(patterns_[k].n_nodal);
-    for (int a = 0; a < patterns_[k].n_nodal; ++a)
+    Eigen::VectorXd du = Eigen::VectorXd::Zero(patterns_[k].n_nodal());
+    for (int a = 0; a < patterns_[k].n_nodal(); ++a)
       for (const Term &term : layout_.terms(patterns_[k].nodal[a]))
         du[a] += term.coefficient * motion[term.unknown];
     const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(reaction.data() + row, rows_[k].n_rows());

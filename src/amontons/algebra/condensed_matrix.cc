@@ -34,7 +34,7 @@ void CondensedMatrix::set_constraints(std::span<const ConstraintPattern> pattern
   masters_.assign(static_cast<std::size_t>(blocks_.n_blocks()), {});
   const int n = blocks_.block_size();
   for (std::size_t k = 0; k < patterns_.size(); ++k)
-    for (int a = 0; a < patterns_[k].n_nodal; a += n)
+    for (int a = 0; a < patterns_[k].n_nodal(); a += n)
     {
       auto &of_node = constraints_of_node_[patterns_[k].nodal[a] / n];
       if (of_node.empty() || of_node.back() != static_cast<Index>(k))
@@ -107,7 +107,7 @@ void CondensedMatrix::add_neighbours(Index node, std::vector<Index> &columns)
       add_node(matrix.nodes[matrix.col[k] / n]);
   }
   for (const Index k : constraints_of_node_[node])
-    for (int a = 0; a < patterns_[k].n_nodal; a += n)
+    for (int a = 0; a < patterns_[k].n_nodal(); a += n)
       add_node(patterns_[k].nodal[a] / n);
 }
 
@@ -261,9 +261,9 @@ void CondensedMatrix::visit_contact_row(Index nodal, Emit &&emit) const
     const Eigen::MatrixXd &stiffness = constraints_[k].stiffness;
     if (stiffness.size() == 0)
       continue;
-    const auto begin = patterns_[k].nodal.begin(), end = begin + patterns_[k].n_nodal;
+    const auto begin = patterns_[k].nodal.begin(), end = patterns_[k].nodal.end();
     for (auto a = std::find(begin, end, nodal); a != end; a = std::find(a + 1, end, nodal))
-      for (int b = 0; b < patterns_[k].n_nodal; ++b)
+      for (int b = 0; b < patterns_[k].n_nodal(); ++b)
         emit(patterns_[k].nodal[b], stiffness(a - begin, b));
   }
 }
@@ -334,8 +334,8 @@ void CondensedMatrix::multiply_add(std::span<const double> motion, std::span<dou
     amontons::multiply_add(matrix, nodal, nodal_forces);
   for (std::size_t k = 0; k < patterns_.size(); ++k)
     if (const Eigen::MatrixXd &stiffness = constraints_[k].stiffness; stiffness.size() > 0)
-      for (int a = 0; a < patterns_[k].n_nodal; ++a)
-        for (int b = 0; b < patterns_[k].n_nodal; ++b)
+      for (int a = 0; a < patterns_[k].n_nodal(); ++a)
+        for (int b = 0; b < patterns_[k].n_nodal(); ++b)
           nodal_forces[patterns_[k].nodal[a]] += stiffness(a, b) * nodal[patterns_[k].nodal[b]];
   layout_.gather(nodal_forces, forces);
   for (std::size_t d = 0; d < dense_unknowns_.size(); ++d)

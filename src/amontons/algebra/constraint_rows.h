@@ -20,8 +20,8 @@ struct ConstraintRows
   template<int rows_max, int cols_max>
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, rows_max, cols_max>;
   using ByRow = Matrix<3, 3>;
-  using OverPosition = Matrix<3, 15>;
-  using OnPosition = Matrix<15, 3>;
+  using OverPosition = Matrix<3, Eigen::Dynamic>;
+  using OnPosition = Matrix<Eigen::Dynamic, 3>;
 
   OverPosition rows;                   ///< [n_rows x n_nodal]
   OnPosition forces;                   ///< [n_nodal x n_rows]; rows^T itself where symmetric

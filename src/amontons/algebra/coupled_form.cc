@@ -32,10 +32,10 @@ void CoupledForm::visit_subdomains(Emit &&emit) const
 template<class Emit>
 void CoupledForm::visit_constraint(const ConstraintPattern &p, Emit &&emit) const
 {
-  for (int a = 0; a < p.n_nodal; ++a)
+  for (int a = 0; a < p.n_nodal(); ++a)
     for (const Term &i : layout_.terms(p.nodal[a]))
     {
-      for (int b = 0; b < p.n_nodal; ++b)
+      for (int b = 0; b < p.n_nodal(); ++b)
         for (const Term &j : layout_.terms(p.nodal[b]))
           emit(i.unknown, j.unknown, i.coefficient * j.coefficient, 0, a, b);
       for (int m = 0; m < p.n_multipliers; ++m)

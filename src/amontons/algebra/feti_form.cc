@@ -39,7 +39,7 @@ void FetiForm::set_constraints(std::vector<ConstraintPattern> constraints, std::
   const std::size_t n_known = options.contact_nodes.size();
   const int dim = subdomains_.empty() ? 1 : subdomains_[0].n_components;
   for (const ConstraintPattern &pattern : constraints_)
-    for (int k = 0; k < pattern.n_nodal; ++k)
+    for (int k = 0; k < pattern.n_nodal(); ++k)
       if (const Index node = pattern.nodal[k] / dim; !dual_->interface().on_boundary(node))
         options.contact_nodes.push_back(node);
   if (options.contact_nodes.size() == n_known)
@@ -72,7 +72,7 @@ void FetiForm::append_row(FetiContactRows &out, const ConstraintPattern &pattern
                           const Eigen::VectorXd &force, double spring) const
 {
   std::array<std::vector<FetiRows::Entry>, 2> entries;
-  for (int k = 0; k < pattern.n_nodal; ++k)
+  for (int k = 0; k < pattern.n_nodal(); ++k)
     for (const bool forces : {false, true})
       if (const double coefficient = (forces ? force : row)[k]; coefficient != 0)
         dual_->interface().append(pattern.nodal[k], coefficient, entries[forces]);
@@ -146,7 +146,7 @@ void FetiForm::factorize()
   {
     std::vector<std::span<const Index>> couplings;
     for (const ConstraintPattern &pattern : constraints_)
-      couplings.emplace_back(pattern.nodal.data(), static_cast<std::size_t>(pattern.n_nodal));
+      couplings.emplace_back(pattern.nodal);
     dual_->set_couplings(couplings);
     ++n_pattern_builds_;
   }
@@ -165,8 +165,8 @@ std::vector<double> FetiForm::nodal(std::span<const double> unknowns) const
 
 Eigen::VectorXd FetiForm::on_pattern(const ConstraintPattern &pattern, std::span<const double> nodal) const
 {
-  Eigen::VectorXd out(pattern.n_nodal);
-  for (int k = 0; k < pattern.n_nodal; ++k)
+  Eigen::VectorXd out(pattern.n_nodal());
+  for (int k = 0; k < pattern.n_nodal(); ++k)
     out[k] = nodal[pattern.nodal[k]];
   return out;
 }
@@ -194,7 +194,7 @@ FetiForm::Residual FetiForm::reduced_right_side(std::span<const double> rhs) con
     for (int m = 0; m < pattern.n_multipliers; ++m)
       own[m] = rhs[layout_.multiplier(pattern.multipliers[m])];
     const Eigen::VectorXd force = reduced_[k].right_side_force * own, gaps = reduced_[k].row_right_side * own;
-    for (int i = 0; i < pattern.n_nodal; ++i)
+    for (int i = 0; i < pattern.n_nodal(); ++i)
       nodal_forces[pattern.nodal[i]] -= force[i];
     out.gaps.insert(out.gaps.end(), gaps.data(), gaps.data() + gaps.size());
   }
@@ -221,7 +221,7 @@ void FetiForm::subtract_constraints(std::span<const double> displacement, const 
     if (reduced.stiffness.size() > 0)
       force += reduced.stiffness * du;
     const Eigen::VectorXd gaps = reduced.rows * du;
-    for (int i = 0; i < pattern.n_nodal; ++i)
+    for (int i = 0; i < pattern.n_nodal(); ++i)
       nodal_forces[pattern.nodal[i]] -= force[i];
     for (int i = 0; i < reduced.n_rows(); ++i)
       out.gaps[first++] -= gaps[i];

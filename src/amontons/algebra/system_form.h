@@ -13,10 +13,11 @@ namespace amontons
 /// Which nodal components and multipliers a constraint couples.
 struct ConstraintPattern
 {
-  std::array<Index, 15> nodal; ///< the impactor node's components first
-  int n_nodal = 0;
+  std::vector<Index> nodal;         ///< the impactor node's components first
   std::array<Index, 3> multipliers; ///< positions among the multipliers
   int n_multipliers = 0;
+
+  [[nodiscard]] int n_nodal() const { return static_cast<int>(nodal.size()); }
 };
 
 /// Values of one constraint: the tangent blocks of a contact element over its pattern, whoever made them.

@@ -71,7 +71,8 @@ ContactElement zero_element(ContactStatus status, int n_dofs, int n_multipliers)
 void add_normal(ContactElement &element, const ContactLinearisation &lin, double sigma_n, double r)
 {
   element.force = sigma_n * lin.gap_direction;
-  element.stiffness = sigma_n * lin.gap_direction_gradient;
+  if (lin.gap_direction_gradient.size() > 0)
+    element.stiffness = sigma_n * lin.gap_direction_gradient;
   element.stiffness.noalias() += r * lin.gap_direction * lin.gap_gradient.transpose();
   element.force_by_multiplier.col(0) = lin.gap_direction;
   element.constraint[0] = lin.gap;
@@ -87,7 +88,8 @@ void add_tangential(ContactElement &element, const ContactLinearisation &lin, co
     for (int e = 0; e < lin.n_tangents(); ++e)
       gradient += r * q.by_sigma_t(c, e) * lin.slip_gradient[e];
     element.force += q.value[c] * lin.slip_direction[c];
-    element.stiffness += q.value[c] * lin.slip_direction_gradient[c];
+    if (lin.slip_direction_gradient[c].size() > 0)
+      element.stiffness += q.value[c] * lin.slip_direction_gradient[c];
     element.stiffness.noalias() += lin.slip_direction[c] * gradient.transpose();
     element.force_by_multiplier.col(0) += q.by_sigma_n[c] * lin.slip_direction[c];
     element.constraint[1 + c] = q.constraint[c];

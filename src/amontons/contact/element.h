@@ -29,9 +29,9 @@ struct ContactElement
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_multipliers, 1> constraint; ///< F_lambda
   ContactMatrix stiffness;                                                    ///< dF_x/dx
   /// dF_x/dlambda, [n_dofs x n_multipliers]
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_contact_dofs, max_multipliers> force_by_multiplier;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, max_multipliers> force_by_multiplier;
   /// dF_lambda/dx, [n_multipliers x n_dofs]
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_multipliers, max_contact_dofs> constraint_by_position;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_multipliers, Eigen::Dynamic> constraint_by_position;
   /// dF_lambda/dlambda, [n_multipliers x n_multipliers]
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_multipliers, max_multipliers> constraint_by_multiplier;
 };

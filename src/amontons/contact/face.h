@@ -125,6 +125,30 @@ Frame<Scalar, dim> frame_of(const std::array<Point<Scalar, dim>, dim - 1> &a)
   return frame;
 }
 
+/// Of the axes of coordinates the one farthest from n.
+inline Eigen::Vector3d farthest_axis(const Eigen::Vector3d &n)
+{
+  Eigen::Index k = 0;
+  n.cwiseAbs().minCoeff(&k);
+  return Eigen::Vector3d::Unit(k);
+}
+
+/// Completes a frame from its normal and, in 3D, a vector whose part normal to n gives e_1.
+template<class Scalar, int dim>
+Frame<Scalar, dim> frame_from(const Point<Scalar, dim> &normal, const Point<Scalar, dim> &along)
+{
+  Frame<Scalar, dim> out{normal, {}};
+  if constexpr (dim == 2)
+    out.tangent[0] = Point<Scalar, dim>(-normal[1], normal[0]);
+  else
+  {
+    const Point<Scalar, dim> tangent = along - normal * normal.dot(along);
+    out.tangent[0] = tangent * (1. / norm<Scalar, dim>(tangent));
+    out.tangent[1] = normal.cross(out.tangent[0]);
+  }
+  return out;
+}
+
 template<int dim, int n_nodes>
 FaceNodes<double, dim, n_nodes> gather(std::span<const double> coordinates)
 {

@@ -34,6 +34,15 @@ ContactLinearisation linearise_small(int dim, std::span<const double> reference_
                                      std::span<const double> reference_face, std::span<const double> displacement,
                                      std::span<const double> slip_origin, std::array<double, 2> xi);
 
+/// Small strain, against a weighted mean of target nodes (contact/mortar.h).
+/// @param normal n, unit @param reference_targets, weights of the target nodes, [n_targets * dim] and [n_targets]
+/// @param displacement of the impactor, then of the targets, [(1 + n_targets) * dim]
+/// @param slip_origin relative displacement u_1 - sum w_k u_k at the increment's beginning, [dim]
+/// In 3D e_1 is made from an axis of coordinates.
+ContactLinearisation linearise_mean(int dim, const Eigen::Vector3d &normal, std::span<const double> reference_impactor,
+                                    std::span<const double> reference_targets, std::span<const double> weights,
+                                    std::span<const double> displacement, std::span<const double> slip_origin);
+
 /// Analytic rigid target that translates with its point (Shape::point).
 /// Dofs: impactor, then the shape's point. `slip_origin` is a position at tau, `shape_point_at_start` the point's then.
 /// Slip: the chord from where the slip started to where the node is, both relative to the shape's point, projected on

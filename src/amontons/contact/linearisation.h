@@ -7,14 +7,13 @@
 
 namespace amontons
 {
-/// Positions of an impactor node and of a face of up to four nodes, in 3D.
-inline constexpr int max_contact_dofs = 15;
 inline constexpr int max_tangents = 2;
 
-using ContactVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_contact_dofs, 1>;
-using ContactMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_contact_dofs, max_contact_dofs>;
+using ContactVector = Eigen::VectorXd;
+using ContactMatrix = Eigen::MatrixXd;
 
-/// Gap and slip of one impactor node against one face (or analytic shape), linearised about the current state.
+/// Gap and slip of one impactor node against one face (or analytic shape, or, with mortar, the mean of many target
+/// nodes), linearised about the current state.
 ///
 /// Dofs are ordered node by node: the impactor node, then the nodes of the face (an analytic shape: one node, the
 /// shape's point), `dim` components each; so the size is dim * n_nodes.
@@ -32,12 +31,13 @@ struct ContactLinearisation
   /// Virtual gap: what a unit normal force does on the nodes. grad g_n on the faces as they are; with smoothed normals
   /// along those (then the tangent has no symmetry to lose: docs/decisions).
   ContactVector gap_direction;
-  ContactMatrix gap_direction_gradient;                  ///< (i, j) = d gap_direction(i) / d x_j; zero in small strain
+  ContactMatrix gap_direction_gradient; ///< (i, j) = d gap_direction(i) / d x_j; empty in small strain: zero
   std::array<ContactVector, max_tangents> slip_gradient; ///< grad g_t
   /// Virtual slip: what a unit tangential force along e_a does on the nodes. Equal to grad g_t where the slip over
   /// the increment is zero (docs/decisions); in small strain always.
   std::array<ContactVector, max_tangents> slip_direction;
-  std::array<ContactMatrix, max_tangents> slip_direction_gradient; ///< [a](i, j) = d slip_direction[a](i) / d x_j
+  /// [a](i, j) = d slip_direction[a](i) / d x_j; empty in small strain: zero
+  std::array<ContactMatrix, max_tangents> slip_direction_gradient;
 
   [[nodiscard]] int n_tangents() const { return dim - 1; }
   [[nodiscard]] int n_dofs() const { return static_cast<int>(gap_gradient.size()); }

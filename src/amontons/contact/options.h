@@ -20,6 +20,13 @@ enum class TargetNormals
   smoothed ///< averaged at the target's nodes and interpolated; edges sharper than 30 degrees stay sharp
 };
 
+/// Where the gap between two meshed surfaces is measured.
+enum class Discretization
+{
+  node_to_face, ///< at the impactor's nodes
+  mortar        ///< in the mean over the impactor's faces (contact/mortar.h): surface-to-surface
+};
+
 struct ContactOptions
 {
   std::string name;
@@ -32,6 +39,7 @@ struct ContactOptions
   bool tied = false;                   ///< the sides are held together as they are at the start, whatever the forces
   InitialOverlap initial_overlap = InitialOverlap::resolve;
   TargetNormals normals = TargetNormals::faceted;
+  Discretization discretization = Discretization::node_to_face;
   double augmentation = 1; ///< factor on the automatic r, > 0; the converged result does not depend on it
   SourceLocation where;
 

@@ -24,30 +24,6 @@ Point<double, dim> odd_direction()
   return Eigen::Vector3d(0.8113, 0.4729, 0.3437).normalized().template head<dim>();
 }
 
-/// Of the axes of coordinates the one farthest from n.
-Eigen::Vector3d farthest_axis(const Eigen::Vector3d &n)
-{
-  Eigen::Index k = 0;
-  n.cwiseAbs().minCoeff(&k);
-  return Eigen::Vector3d::Unit(k);
-}
-
-/// Completes a frame from its normal and, in 3D, a vector whose part normal to n gives e_1.
-template<class Scalar, int dim>
-Frame<Scalar, dim> frame_from(const Point<Scalar, dim> &normal, const Point<Scalar, dim> &along)
-{
-  Frame<Scalar, dim> out{normal, {}};
-  if constexpr (dim == 2)
-    out.tangent[0] = Point<Scalar, dim>(-normal[1], normal[0]);
-  else
-  {
-    const Point<Scalar, dim> tangent = along - normal * normal.dot(along);
-    out.tangent[0] = tangent * (1. / norm<Scalar, dim>(tangent));
-    out.tangent[1] = normal.cross(out.tangent[0]);
-  }
-  return out;
-}
-
 template<class Scalar, int dim>
 ShapeFrame<Scalar, dim> ball_frame(const Shape &shape, const Point<Scalar, dim> &p)
 {
@@ -198,7 +174,6 @@ ContactLinearisation linearise_reference(bool axisymmetric, const Shape &shape, 
   out.normal.template head<dim>() = frame.normal;
   out.gap_gradient = opposed<dim>(frame.normal);
   out.gap_direction = out.gap_gradient;
-  out.gap_direction_gradient.setZero(2 * dim, 2 * dim);
   for (int c = 0; c < dim - 1; ++c)
   {
     out.tangent[c].setZero();
@@ -206,7 +181,6 @@ ContactLinearisation linearise_reference(bool axisymmetric, const Shape &shape, 
     out.slip[c] = frame.tangent[c].dot(relative - ConstPoint<dim>(slip_origin.data()));
     out.slip_gradient[c] = opposed<dim>(frame.tangent[c]);
     out.slip_direction[c] = out.slip_gradient[c];
-    out.slip_direction_gradient[c].setZero(2 * dim, 2 * dim);
   }
   return out;
 }

@@ -6,50 +6,65 @@ namespace amontons
 {
 namespace
 {
-/// e.(u_1 - sum N_i u_i) as a row: (e, -N_1 e, ..., -N_n e).
-template<int dim, int n_nodes>
-ContactVector relative_row(const Point<double, dim> &direction, const std::array<double, n_nodes> &shape)
+/// e.(u_1 - sum w_k u_k) as a row: (e, -w_1 e, ..., -w_n e).
+ContactVector relative_row(int dim, const Eigen::Vector3d &direction, std::span<const double> weights)
 {
-  ContactVector row(dim * (1 + n_nodes));
-  row.head<dim>() = direction;
-  for (int i = 0; i < n_nodes; ++i)
-    row.segment<dim>(dim * (1 + i)) = -shape[i] * direction;
+  ContactVector row(dim * static_cast<Eigen::Index>(1 + weights.size()));
+  row.head(dim) = direction.head(dim);
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    row.segment(dim * static_cast<Eigen::Index>(1 + k), dim) = -weights[k] * direction.head(dim);
   return row;
 }
 
-template<int dim, int n_nodes>
-ContactLinearisation linearise(std::span<const double> impactor, std::span<const double> face_coordinates,
-                               std::span<const double> displacement, std::span<const double> slip_origin,
-                               std::array<double, 2> xi)
+/// Gap, slip and their gradients, given the frame.
+void fill(ContactLinearisation &out, std::span<const double> impactor, std::span<const double> target,
+          std::span<const double> weights, std::span<const double> displacement, std::span<const double> slip_origin)
 {
-  constexpr int n_dofs = dim * (1 + n_nodes);
-  AMONTONS_ASSERT(impactor.size() == dim && slip_origin.size() == dim && displacement.size() == n_dofs);
-  const auto nodes = gather<dim, n_nodes>(face_coordinates);
-  const auto shape = shape_functions<n_nodes>(Chart{}, xi);
-  std::array<Point<double, dim>, dim - 1> base;
-  for (int a = 0; a < dim - 1; ++a)
-    base[a] = combine(shape.derivative[a], nodes);
-  const auto frame = frame_of<double, dim>(base);
-  const Eigen::Map<const Point<double, dim>> x(impactor.data()), origin(slip_origin.data());
-  const Eigen::Map<const Point<double, n_dofs>> u(displacement.data());
-
-  ContactLinearisation out;
-  out.dim = dim;
-  out.xi = xi;
-  out.normal.head<dim>() = frame.normal;
-  out.gap_gradient = relative_row<dim, n_nodes>(frame.normal, shape.value);
-  out.gap = (x - combine(shape.value, nodes)).dot(frame.normal) + out.gap_gradient.dot(u);
+  const int dim = out.dim;
+  const auto d = static_cast<std::size_t>(dim);
+  AMONTONS_ASSERT(impactor.size() == d && slip_origin.size() == d && target.size() == d * weights.size() &&
+                  displacement.size() == d * (1 + weights.size()));
+  const auto vector = [](std::span<const double> v)
+  { return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())); };
+  const auto u = vector(displacement), origin = vector(slip_origin);
+  out.gap_gradient = relative_row(dim, out.normal, weights);
+  out.gap = out.gap_gradient.head(dim).dot(vector(impactor)) +
+            out.gap_gradient.tail(target.size()).dot(vector(target)) + out.gap_gradient.dot(u);
   out.gap_direction = out.gap_gradient;
-  out.gap_direction_gradient.setZero(n_dofs, n_dofs);
+  for (int c = 0; c < dim - 1; ++c)
+  {
+    out.slip_gradient[c] = relative_row(dim, out.tangent[c], weights);
+    out.slip[c] = out.slip_gradient[c].dot(u) - out.tangent[c].head(dim).dot(origin);
+    out.slip_direction[c] = out.slip_gradient[c];
+  }
+}
+
+template<int dim>
+void set_frame(ContactLinearisation &out, const Frame<double, dim> &frame)
+{
+  out.dim = dim;
+  out.normal.head<dim>() = frame.normal;
   for (int c = 0; c < dim - 1; ++c)
   {
     out.tangent[c].setZero();
     out.tangent[c].head<dim>() = frame.tangent[c];
-    out.slip_gradient[c] = relative_row<dim, n_nodes>(frame.tangent[c], shape.value);
-    out.slip[c] = out.slip_gradient[c].dot(u) - frame.tangent[c].dot(origin);
-    out.slip_direction[c] = out.slip_gradient[c];
-    out.slip_direction_gradient[c].setZero(n_dofs, n_dofs);
   }
+}
+
+template<int dim, int n_nodes>
+ContactLinearisation linearise(std::span<const double> impactor, std::span<const double> face,
+                               std::span<const double> displacement, std::span<const double> slip_origin,
+                               std::array<double, 2> xi)
+{
+  const auto nodes = gather<dim, n_nodes>(face);
+  const auto shape = shape_functions<n_nodes>(Chart{}, xi);
+  std::array<Point<double, dim>, dim - 1> base;
+  for (int a = 0; a < dim - 1; ++a)
+    base[a] = combine(shape.derivative[a], nodes);
+  ContactLinearisation out;
+  out.xi = xi;
+  set_frame<dim>(out, frame_of<double, dim>(base));
+  fill(out, impactor, face, shape.value, displacement, slip_origin);
   return out;
 }
 } // namespace
@@ -64,5 +79,18 @@ ContactLinearisation linearise_small(int dim, std::span<const double> reference_
     return linearise<3, 3>(reference_impactor, reference_face, displacement, slip_origin, xi);
   AMONTONS_ASSERT(dim == 3 && reference_face.size() == 12);
   return linearise<3, 4>(reference_impactor, reference_face, displacement, slip_origin, xi);
+}
+
+ContactLinearisation linearise_mean(int dim, const Eigen::Vector3d &normal, std::span<const double> reference_impactor,
+                                    std::span<const double> reference_targets, std::span<const double> weights,
+                                    std::span<const double> displacement, std::span<const double> slip_origin)
+{
+  ContactLinearisation out;
+  if (dim == 2)
+    set_frame<2>(out, frame_from<double, 2>(normal.head<2>(), {}));
+  else
+    set_frame<3>(out, frame_from<double, 3>(normal, farthest_axis(normal)));
+  fill(out, reference_impactor, reference_targets, weights, displacement, slip_origin);
+  return out;
 }
 } // namespace amontons

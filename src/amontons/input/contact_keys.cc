@@ -89,6 +89,11 @@ Section<ContactOptions> contact_keys()
               "along which normals contact forces act on a meshed target in finite strain; smoothed: averaged at the "
               "target's nodes and interpolated, so that they do not jump where a node slides from face to face (edges "
               "sharper than 30 degrees stay sharp); faceted: of each face");
+  keys.choice("discretization", &ContactOptions::discretization,
+              {{"node-to-face", Discretization::node_to_face}, {"mortar", Discretization::mortar}}, optional,
+              "where the gap is measured; node-to-face: at the impactor's nodes; mortar: surface to surface, in the "
+              "mean over the impactor's faces, so that a uniform pressure passes exactly between meshes that do not "
+              "match (two meshed sides, small strain)");
   keys.number("augmentation", &ContactOptions::augmentation, positive, "1", optional,
               "factor on the augmentation parameter, which is found from the bodies' stiffness; the solution does not "
               "depend on it");

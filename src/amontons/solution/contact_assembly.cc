@@ -66,11 +66,10 @@ void ContactAssembly::rebuild_pattern()
     for (Index i = 0; i < contact.n_nodes(); ++i)
     {
       ConstraintPattern pattern;
-      std::array<Index, 5> nodes;
       if (contact.paired(i))
-        for (int k = 0, n = contact.nodes(i, nodes); k < n; ++k)
+        for (const Index node : contact.nodes(i))
           for (int c = 0; c < dim; ++c)
-            pattern.nodal[pattern.n_nodal++] = nodes[k] * dim + c;
+            pattern.nodal.push_back(node * dim + c);
       for (int m = 0; m < dim; ++m)
         pattern.multipliers[pattern.n_multipliers++] = contact.multiplier(i) + m;
       patterns.push_back(pattern);
@@ -136,7 +135,7 @@ ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t 
   {
     double gap = now.gap;
     const ConstraintPattern &pattern = form_.constraints()[block];
-    for (int k = 0; k < pattern.n_nodal && !pending.empty(); ++k)
+    for (int k = 0; k < pattern.n_nodal() && !pending.empty(); ++k)
       gap += now.gap_gradient[k] * pending[pattern.nodal[k]];
     candidates_.push_back({c, i, gap, now.gap_gradient});
     return work;
@@ -176,12 +175,12 @@ void ContactAssembly::add(const Work &work, std::span<const double> pending, Con
   const ContactElement &e = work.element;
   const ContactInterface &contact = model_.contacts()[work.contact];
   const ConstraintPattern &pattern = form_.constraints()[work.block];
-  Eigen::VectorXd motion = Eigen::VectorXd::Zero(pattern.n_nodal);
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(pattern.n_nodal());
   if (!pending.empty())
-    for (int k = 0; k < pattern.n_nodal; ++k)
+    for (int k = 0; k < pattern.n_nodal(); ++k)
       motion[k] = pending[pattern.nodal[k]];
   const bool moves = motion.size() > 0 && !motion.isZero(0);
-  for (int k = 0; k < pattern.n_nodal; ++k)
+  for (int k = 0; k < pattern.n_nodal(); ++k)
     out.force[pattern.nodal[k]] += e.force[k];
   out.force_norm2 += e.force.squaredNorm();
   for (int m = 0; m < pattern.n_multipliers; ++m)
@@ -195,7 +194,7 @@ void ContactAssembly::add(const Work &work, std::span<const double> pending, Con
   if (moves)
   {
     const Eigen::VectorXd force = e.stiffness * motion, gap = e.constraint_by_position * motion;
-    for (int k = 0; k < pattern.n_nodal; ++k)
+    for (int k = 0; k < pattern.n_nodal(); ++k)
       out.prescribed_force[pattern.nodal[k]] += force[k];
     for (int m = 0; m < pattern.n_multipliers; ++m)
       out.prescribed_gap[pattern.multipliers[m]] += gap[m];

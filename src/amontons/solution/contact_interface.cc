@@ -4,6 +4,7 @@
 #include "amontons/contact/frame.h"
 #include "amontons/contact/kinematics.h"
 #include "amontons/surface/normals.h"
+#include "amontons/surface/projection.h"
 
 #include <Eigen/Geometry>
 
@@ -16,7 +17,6 @@ namespace
 {
 /// A gap below this fraction of the local size counts as touching when the run starts.
 constexpr double touching = 1e-9;
-constexpr int max_nodes = 5;
 /// Edges of the target sharper than this stay sharp where normals are smoothed.
 constexpr double sharp_angle = 3.14159265358979323846 / 6;
 
@@ -50,8 +50,13 @@ ContactInterface::ContactInterface(const Mesh &mesh, Kinematics kinematics, Stra
   {
     target_ = std::make_shared<const Surface>(extract_surface(mesh, options.target, options.where));
     check_not_welded(mesh, *impactor_, *target_, options.impactor, options.target, options.where);
-    detector_ = make_detector(detection, *impactor_, *target_);
+    if (is_mortar())
+      mortar_distance_ = detection.distance;
+    else
+      detector_ = make_detector(detection, *impactor_, *target_);
   }
+  if (is_mortar())
+    require_meshed_sides();
   const auto n = static_cast<std::size_t>(n_nodes());
   pairing_.resize(n);
   augmentation_.assign(n, 1);
@@ -96,16 +101,36 @@ void ContactInterface::set_augmentation(std::span<const double> diagonal)
   }
 }
 
-int ContactInterface::nodes(Index i, std::array<Index, 5> &out) const
+std::vector<Index> ContactInterface::nodes(Index i) const
 {
-  int n = 0;
-  out[n++] = static_cast<Index>(impactor_->node_ids[i]);
+  std::vector<Index> out{static_cast<Index>(impactor_->node_ids[i])};
+  const auto add = [&](std::span<const Index> targets)
+  {
+    for (const Index local : targets)
+      out.push_back(static_cast<Index>(target_->node_ids[local]));
+  };
   if (analytic_)
-    out[n++] = shape_node_;
+    out.push_back(shape_node_);
+  else if (mortar_)
+    add(mortar_->targets_of(i));
   else if (pairing_[i].face >= 0)
-    for (const Index local : target_->face(pairing_[i].face))
-      out[n++] = static_cast<Index>(target_->node_ids[local]);
-  return n;
+    add(target_->face(pairing_[i].face));
+  return out;
+}
+
+/// Small strain: what each target node counts in the mean that the impactor node is held against.
+std::vector<double> ContactInterface::target_weights(Index i) const
+{
+  if (analytic_)
+    return {1};
+  if (mortar_)
+  {
+    const auto weights = mortar_->weights_of(i);
+    return {weights.begin(), weights.end()};
+  }
+  const auto n = target_->face(pairing_[i].face).size();
+  const auto shape = shape_functions(static_cast<int>(n), pairing_[i].xi);
+  return {shape.begin(), shape.begin() + static_cast<std::ptrdiff_t>(n)};
 }
 
 void ContactInterface::gather(std::span<const Index> nodes, std::span<const double> displacement,
@@ -127,25 +152,14 @@ void ContactInterface::add_reference(std::span<const Index> nodes, std::span<dou
 
 Eigen::Vector3d ContactInterface::relative(Index i, std::span<const double> displacement) const
 {
-  std::array<Index, max_nodes> ids;
-  const int n = nodes(i, ids);
-  std::array<double, max_contact_dofs> u;
-  gather({ids.data(), static_cast<std::size_t>(n)}, displacement, u);
-  const Pair &pair = pairing_[i];
-  std::array<double, 4> weight{1, 0, 0, 0};
-  const double a = pair.xi[0], b = pair.xi[1];
-  if (n == 3)
-    weight = {1 - a, a, 0, 0};
-  else if (n == 4)
-    weight = {1 - a - b, a, b, 0};
-  else if (n == 5)
-    weight = {(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b};
+  const std::vector<Index> ids = nodes(i);
+  const std::vector<double> weights = target_weights(i);
   Eigen::Vector3d out = Eigen::Vector3d::Zero();
   for (int c = 0; c < dim_; ++c)
   {
-    out[c] = u[c];
-    for (int k = 1; k < n; ++k)
-      out[c] -= weight[k - 1] * u[k * dim_ + c];
+    out[c] = displacement[static_cast<std::size_t>(ids[0]) * dim_ + c];
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      out[c] -= weights[k] * displacement[static_cast<std::size_t>(ids[k + 1]) * dim_ + c];
   }
   return out;
 }
@@ -204,24 +218,24 @@ std::span<const double> ContactInterface::normals_of_face(Index i) const
 ContactLinearisation ContactInterface::linearise_with_origin(Index i, std::span<const double> displacement,
                                                              std::span<const double> start) const
 {
-  std::array<Index, max_nodes> ids;
-  const auto n = static_cast<std::size_t>(nodes(i, ids));
-  const std::size_t size = n * dim_, rest = size - dim_;
-  const std::span<const Index> all{ids.data(), n};
-  std::array<double, max_contact_dofs> now, then;
-  const std::span<const double> origin{slip_origin_[i].data(), static_cast<std::size_t>(dim_)};
+  const std::vector<Index> all = nodes(i);
   const auto d = static_cast<std::size_t>(dim_);
+  const std::size_t size = all.size() * d, rest = size - d;
+  std::vector<double> now(size), then(size, 0.0);
+  const std::span<const double> origin{slip_origin_[i].data(), d};
 
   ContactLinearisation out;
   if (small_)
   {
-    std::fill_n(then.begin(), size, 0.0);
     add_reference(all, then);
     gather(all, displacement, now);
-    out = analytic_
-              ? linearise_shape_small(dim_, axisymmetric_, *analytic_, {then.data(), d}, {now.data(), size}, origin)
-              : linearise_small(dim_, {then.data(), d}, {then.data() + d, rest}, {now.data(), size}, origin,
-                                pairing_[i].xi);
+    const std::span<const double> own{then.data(), d}, targets{then.data() + d, rest};
+    if (analytic_)
+      out = linearise_shape_small(dim_, axisymmetric_, *analytic_, own, now, origin);
+    else if (mortar_)
+      out = linearise_mean(dim_, mortar_->normal[i], own, targets, mortar_->weights_of(i), now, origin);
+    else
+      out = linearise_small(dim_, own, targets, now, origin, pairing_[i].xi);
   }
   else
   {
@@ -247,14 +261,14 @@ void ContactInterface::find_closing_origin(Index i, const ContactLinearisation &
     slip_origin_[i] += closing_fraction(start_gap_[i], now.gap) * (relative(i, displacement) - slip_origin_[i]);
     return;
   }
-  std::array<Index, max_nodes> ids;
-  const auto n = static_cast<std::size_t>(nodes(i, ids));
+  const std::vector<Index> ids = nodes(i);
+  const std::size_t n = ids.size();
   const auto d = static_cast<std::size_t>(dim_);
-  std::array<double, max_contact_dofs> x{}, x_start{};
-  gather({ids.data(), n}, displacement, x);
-  add_reference({ids.data(), n}, x);
-  gather({ids.data(), n}, start, x_start);
-  add_reference({ids.data(), n}, x_start);
+  std::vector<double> x(n * d), x_start(n * d);
+  gather(ids, displacement, x);
+  add_reference(ids, x);
+  gather(ids, start, x_start);
+  add_reference(ids, x_start);
   if (!analytic_)
   {
     slip_origin_[i] = closing_origin_finite(dim_, {x.data(), d}, {x.data() + d, (n - 1) * d}, {x_start.data(), d},

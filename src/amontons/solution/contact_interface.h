@@ -2,6 +2,7 @@
 #include "amontons/bulk/mesh.h"
 #include "amontons/bulk/rigid_bodies.h"
 #include "amontons/contact/element.h"
+#include "amontons/contact/mortar.h"
 #include "amontons/contact/options.h"
 #include "amontons/detection/detector.h"
 #include "amontons/solution/results.h"
@@ -31,7 +32,10 @@ public:
   [[nodiscard]] double augmentation(Index i) const { return augmentation_[i]; }
   /// The part of r that is not the user's: makes a force of a gap, for norms.
   [[nodiscard]] double stiffness(Index i) const { return augmentation_[i] / options_.augmentation; }
-  [[nodiscard]] bool paired(Index i) const { return analytic_ || pairing_[i].face >= 0; }
+  [[nodiscard]] bool paired(Index i) const
+  {
+    return analytic_ || (mortar_ ? mortar_->sees_target(i) : pairing_[i].face >= 0);
+  }
   [[nodiscard]] std::span<const Pair> pairing() const { return pairing_; }
   [[nodiscard]] DetectionReport detection_report() const;
   /// How often node i went to another face within the increment.
@@ -41,8 +45,8 @@ public:
   /// is rigid. @param diagonal [n_nodal], zero on rigid nodes
   void set_augmentation(std::span<const double> diagonal);
 
-  /// Nodes of element i: the impactor node, then the face's (or the shape's point). @return their number, at most 5
-  int nodes(Index i, std::array<Index, 5> &nodes) const;
+  /// Nodes of element i: the impactor node, then the face's, those that mortar couples it with, or the shape's point.
+  [[nodiscard]] std::vector<Index> nodes(Index i) const;
 
   /// Measures gaps from those in this configuration: the overlaps where they are to be adjusted, all where the sides
   /// are tied.
@@ -114,7 +118,12 @@ private:
   void add_reference(std::span<const Index> nodes, std::span<double> out) const;
   [[nodiscard]] std::span<const double> normals_of_face(Index i) const;
   void smooth_target_normals(std::span<const double> start);
+  [[nodiscard]] bool is_mortar() const { return options_.discretization == Discretization::mortar; }
+  [[nodiscard]] std::vector<double> target_weights(Index i) const;
   [[nodiscard]] Eigen::Vector3d relative(Index i, std::span<const double> displacement) const;
+  void require_meshed_sides() const;
+  void couple(double reach);
+  void report_mortar(double w);
   [[nodiscard]] bool keeps_face(Index i, const Pair &found, std::span<const double> displacement) const;
 
   const Mesh &mesh_;
@@ -126,7 +135,10 @@ private:
   std::optional<Shape> analytic_;
   Index shape_node_ = -1;
   std::vector<double> areas_, augmentation_;
-  std::unique_ptr<Detector> detector_;
+  std::unique_ptr<Detector> detector_;    ///< node-to-face
+  std::optional<double> mortar_distance_; ///< the user's w
+  std::optional<MortarCoupling> mortar_;  ///< as last detected
+  DetectionReport mortar_report_;
   Pairing pairing_, start_pairing_;    ///< now, and at the increment's beginning
   std::vector<double> target_normals_; ///< at the corners of the target's faces at the increment's beginning, or empty
   std::vector<int> n_face_changes_;    ///< within the increment

@@ -18,6 +18,8 @@ DetectionReport ContactInterface::detection_report() const
 {
   if (detector_)
     return detector_->report();
+  if (mortar_)
+    return mortar_report_;
   DetectionReport report;
   report.method = "analytic";
   report.n_pairs = n_nodes();
@@ -48,6 +50,11 @@ bool ContactInterface::detect(std::span<const double> displacement, double reach
   old_frames_.clear();
   if (analytic_)
     return false;
+  if (is_mortar())
+  {
+    couple(reach);
+    return true;
+  }
   std::vector<double> impactor_x(impactor_->reference), target_x(target_->reference);
   if (!small_)
     for (auto [surface, x] : {std::pair{impactor_.get(), &impactor_x}, std::pair{target_.get(), &target_x}})

@@ -25,7 +25,7 @@ template<class Row>
 DependentRows::SparseRow DependentRows::on_unknowns(const ConstraintPattern &pattern, const Row &row) const
 {
   SparseRow out;
-  for (int k = 0; k < pattern.n_nodal; ++k)
+  for (int k = 0; k < pattern.n_nodal(); ++k)
     for (const Term &term : layout_.terms(pattern.nodal[k]))
       out[term.unknown] += term.coefficient * row[k];
   return out;

@@ -151,17 +151,16 @@ Eigen::Vector3d FreeMotions::velocity(const Mode &mode, Index node, const Eigen:
 Eigen::VectorXd FreeMotions::over_modes(const State &state, int contact, Index node, const ContactVector &row) const
 {
   const int dim = model_.dim();
-  std::array<Index, 5> nodes;
-  const int n = model_.contacts()[contact].nodes(node, nodes);
+  const std::vector<Index> nodes = model_.contacts()[contact].nodes(node);
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(modes_.size()));
-  for (int k = 0; k < n; ++k)
+  for (std::size_t k = 0; k < nodes.size(); ++k)
   {
     const Eigen::Vector3d at = place(state, nodes[k]);
     for (std::size_t m = 0; m < modes_.size(); ++m)
     {
       const Eigen::Vector3d v = velocity(modes_[m], nodes[k], at);
       for (int c = 0; c < dim; ++c)
-        out[static_cast<Eigen::Index>(m)] += row[k * dim + c] * v[c];
+        out[static_cast<Eigen::Index>(m)] += row[static_cast<Eigen::Index>(k) * dim + c] * v[c];
     }
   }
   return out;
