@@ -14,6 +14,7 @@ import sys
 import tempfile
 import threading
 import time
+import traceback
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(HERE)
@@ -141,8 +142,10 @@ def verify(program, name, level, jobs=1, keep=None):
     rows, failure = [], ""
     try:
         rows = [row.stored() for row in module.verify(bench)]
-    except RuntimeError as error:
+    except RuntimeError as error:  # a run of the program
         failure = str(error)
+    except Exception:  # in the case itself: it must not take the other cases with it
+        failure = traceback.format_exc()
     finally:
         cost = bench.cost()
         bench.close()
