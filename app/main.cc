@@ -1,12 +1,12 @@
 // The command `amontons`: reads the command line, starts the engine, turns errors into exit codes.
 #include "commands.h"
+#include "log.h"
 
 #include "amontons/algebra/session.h"
 #include "amontons/base/error.h"
 #include "amontons/base/suggestion.h"
 #include "amontons/input/deck.h"
 #include "amontons/output/version.h"
-#include "amontons/parallel/log.h"
 
 #include <CLI/CLI.hpp>
 

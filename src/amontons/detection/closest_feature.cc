@@ -116,12 +116,14 @@ void FeatureView::note_end(const AttachedFace &attached, int k, const Vector3d &
 {
   const double overhang = -offset_.dot(inward);
   const Index beyond = target_.neighbour(attached.face, k);
-  if ((beyond >= 0 && counts(beyond)) || overhang <= std::max(feature_.overhang, same * size_))
+  if ((beyond >= 0 && counts(beyond)) || overhang < feature_.overhang || overhang <= same * size_)
     return;
-  feature_.overhang = overhang;
-  feature_.extent = 0;
+  // Of ends that are passed by as much the longer face counts, in whatever order they are looked at.
+  double extent = overhang == feature_.overhang ? feature_.extent : 0;
   for (int i = 0; i < attached.x.n_nodes; ++i)
-    feature_.extent = std::max(feature_.extent, (attached.x.x[i] - point_).dot(inward));
+    extent = std::max(extent, (attached.x.x[i] - point_).dot(inward));
+  feature_.overhang = overhang;
+  feature_.extent = extent;
 }
 
 // Whether a replaces b as the face of greatest signed distance.

@@ -67,13 +67,21 @@ public:
   }
 
   /// Impactor and target are the same surface.
-  void set_self_contact(std::optional<double> self_distance)
+  void set_self_contact(std::optional<double> self_distance, bool with_roles)
   {
     exclusions_.emplace(impactor_, self_distance);
-    roles_.emplace(impactor_);
+    if (with_roles)
+      roles_.emplace(impactor_);
   }
 
-  const Pairing &detect(std::span<const double> impactor_x, std::span<const double> target_x, double reach) override;
+  const Pairing &detect(std::span<const double> impactor_x, std::span<const double> target_x, double reach) override
+  {
+    return detect_by(impactor_x, target_x, [&] { return search_distance(target_, options_, reach); });
+  }
+  const Pairing &detect_within(std::span<const double> impactor_x, std::span<const double> target_x, double w) override
+  {
+    return detect_by(impactor_x, target_x, [w] { return SearchDistance{w, -1}; });
+  }
   [[nodiscard]] DetectionReport report() const override { return report_; }
 
 private:
@@ -85,6 +93,8 @@ private:
     obstructed
   };
 
+  template<typename Distance>
+  const Pairing &detect_by(std::span<const double> impactor_x, std::span<const double> target_x, Distance distance);
   template<int dim>
   void choose_nodes(std::span<const double> impactor_x, std::span<const double> target_x);
   Verdict judge(const Feature &feature, Index node);
@@ -153,8 +163,9 @@ void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span
     throw NumericalFailure("contact detection: the nodes' positions are not finite");
 }
 
-const Pairing &SurfaceDetector::detect(std::span<const double> impactor_x, std::span<const double> target_x,
-                                       double reach)
+template<typename Distance>
+const Pairing &SurfaceDetector::detect_by(std::span<const double> impactor_x, std::span<const double> target_x,
+                                          Distance distance)
 {
   AMONTONS_ASSERT(impactor_x.size() == impactor_.node_ids.size() * impactor_.dim);
   AMONTONS_ASSERT(target_x.size() == target_.surface().node_ids.size() * impactor_.dim);
@@ -162,7 +173,7 @@ const Pairing &SurfaceDetector::detect(std::span<const double> impactor_x, std::
   target_.move_to(target_x);
   {
     const auto time = timers_.measure("bounds");
-    distance_ = search_distance(target_, options_, reach);
+    distance_ = distance();
     if (impactor_.dim == 2)
       choose_nodes<2>(impactor_x, target_x);
     else
@@ -340,7 +351,15 @@ std::unique_ptr<Detector> make_self_detector(const DetectionOptions &options, co
                                              std::optional<double> self_distance)
 {
   auto detector = std::make_unique<SurfaceDetector>(options, surface, surface);
-  detector->set_self_contact(self_distance);
+  detector->set_self_contact(self_distance, true);
+  return detector;
+}
+
+std::unique_ptr<Detector> make_sight_detector(const DetectionOptions &options, const Surface &surface,
+                                              std::optional<double> self_distance)
+{
+  auto detector = std::make_unique<SurfaceDetector>(options, surface, surface);
+  detector->set_self_contact(self_distance, false);
   return detector;
 }
 } // namespace amontons

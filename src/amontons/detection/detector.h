@@ -46,6 +46,11 @@ public:
   ///         naming the face and the least w; NumericalFailure if a position is not finite
   virtual const Pairing &detect(std::span<const double> impactor_x, std::span<const double> target_x, double reach) = 0;
 
+  /// The same with w given by one who knows it of a larger target, of which this one is a part; the options' own is not
+  /// asked for, nor held against the faces.
+  virtual const Pairing &detect_within(std::span<const double> impactor_x, std::span<const double> target_x,
+                                       double w) = 0;
+
   /// Of the last detect().
   [[nodiscard]] virtual DetectionReport report() const = 0;
 };
@@ -60,4 +65,8 @@ std::unique_ptr<Detector> make_detector(const DetectionOptions &options, const S
 /// @throws UserError if it is negative or not finite
 std::unique_ptr<Detector> make_self_detector(const DetectionOptions &options, const Surface &surface,
                                              std::optional<double> self_distance = {});
+
+/// Self-contact before Roles: the face that each node sees, whichever side it is of.
+std::unique_ptr<Detector> make_sight_detector(const DetectionOptions &options, const Surface &surface,
+                                              std::optional<double> self_distance = {});
 } // namespace amontons

@@ -100,16 +100,11 @@ public:
 
   const Pairing &detect(std::span<const double> impactor_x, std::span<const double> target_x, double reach) override
   {
-    const Pairing &found = inner_->detect(impactor_.numbered(impactor_x), target_.numbered(target_x), reach);
-    pairing_.resize(found.size());
-    for (std::size_t i = 0; i < found.size(); ++i)
-    {
-      Pair &pair = pairing_[impactor_.original_node(static_cast<Index>(i))] = found[i];
-      pair.face = target_.original_face(pair.face);
-    }
-    impactor_.release();
-    target_.release();
-    return pairing_;
+    return in_given_order(inner_->detect(impactor_.numbered(impactor_x), target_.numbered(target_x), reach));
+  }
+  const Pairing &detect_within(std::span<const double> impactor_x, std::span<const double> target_x, double w) override
+  {
+    return in_given_order(inner_->detect_within(impactor_.numbered(impactor_x), target_.numbered(target_x), w));
   }
 
   [[nodiscard]] DetectionReport report() const override
@@ -121,6 +116,19 @@ public:
   }
 
 private:
+  const Pairing &in_given_order(const Pairing &found)
+  {
+    pairing_.resize(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      Pair &pair = pairing_[impactor_.original_node(static_cast<Index>(i))] = found[i];
+      pair.face = target_.original_face(pair.face);
+    }
+    impactor_.release();
+    target_.release();
+    return pairing_;
+  }
+
   Side impactor_, target_;
   std::unique_ptr<Detector> inner_;
   Pairing pairing_;

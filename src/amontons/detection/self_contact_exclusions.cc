@@ -81,6 +81,25 @@ private:
 };
 } // namespace
 
+SurfaceNormals surface_normals(const Surface &surface, std::span<const double> x)
+{
+  SurfaceNormals result;
+  result.face.resize(surface.face_ids.size());
+  result.node.assign(surface.node_ids.size(), Eigen::Vector3f::Zero());
+  for (Index f = 0; f < surface.n_faces(); ++f)
+  {
+    const auto nodes = surface.face(f);
+    const LocalPoint middle = nodes.size() == 3 ? LocalPoint{1.0 / 3, 1.0 / 3} : LocalPoint{0.5, 0.5};
+    result.face[f] = face_normal(gather_face(surface.dim, nodes, x), middle).cast<float>();
+    for (const Index node : nodes)
+      result.node[node] += result.face[f];
+  }
+  for (Eigen::Vector3f &normal : result.node)
+    if (normal.squaredNorm() > 0)
+      normal.normalize();
+  return result;
+}
+
 Exclusions::Exclusions(const Surface &surface, std::optional<double> self_distance)
   : surface_(surface)
   , self_distance_(self_distance)
@@ -102,7 +121,7 @@ Exclusions::Exclusions(const Surface &surface, std::optional<double> self_distan
     }
   }
   find_near();
-  reference_ = now_ = normals(surface.reference);
+  reference_ = now_ = surface_normals(surface, surface.reference);
 }
 
 double Exclusions::edge_length(Index a, Index b) const
@@ -136,30 +155,11 @@ void Exclusions::find_near()
   near_faces_.shrink_to_fit();
 }
 
-Exclusions::Normals Exclusions::normals(std::span<const double> x) const
-{
-  Normals result;
-  result.face.resize(surface_.face_ids.size());
-  result.node.assign(surface_.node_ids.size(), Eigen::Vector3f::Zero());
-  for (Index f = 0; f < surface_.n_faces(); ++f)
-  {
-    const auto nodes = surface_.face(f);
-    const LocalPoint middle = nodes.size() == 3 ? LocalPoint{1.0 / 3, 1.0 / 3} : LocalPoint{0.5, 0.5};
-    result.face[f] = face_normal(gather_face(surface_.dim, nodes, x), middle).cast<float>();
-    for (const Index node : nodes)
-      result.node[node] += result.face[f];
-  }
-  for (Eigen::Vector3f &normal : result.node)
-    if (normal.squaredNorm() > 0)
-      normal.normalize();
-  return result;
-}
-
 void Exclusions::move_to(std::span<const double> x)
 {
   AMONTONS_ASSERT(x.size() == surface_.reference.size());
   x_ = x;
-  now_ = normals(x);
+  now_ = surface_normals(surface_, x);
 }
 
 bool Exclusions::is_near(Index node, Index face) const

@@ -9,6 +9,14 @@
 
 namespace amontons
 {
+/// Unit normals of a surface: of its faces at their middles, and of its nodes the mean of their faces', zero without.
+struct SurfaceNormals
+{
+  std::vector<Eigen::Vector3f> node, face;
+};
+/// @param x coordinates, [n_nodes * dim]
+SurfaceNormals surface_normals(const Surface &surface, std::span<const double> x);
+
 /// Which faces of its own surface a node does not see, where one surface is impactor and target at once:
 ///
 /// - **near**: its own faces, and those with a node within the *self-distance* of it along the surface, in the
@@ -66,11 +74,6 @@ public:
   [[nodiscard]] std::span<const Eigen::Vector3f> node_normals() const { return now_.node; }
 
 private:
-  struct Normals
-  {
-    std::vector<Eigen::Vector3f> node, face;
-  };
-  [[nodiscard]] Normals normals(std::span<const double> x) const;
   [[nodiscard]] bool is_own_wall(Index node, Index face) const;
   [[nodiscard]] double edge_length(Index a, Index b) const;
   void find_near();
@@ -82,7 +85,7 @@ private:
   std::optional<double> self_distance_;
   std::span<const double> x_;
   std::vector<double> size_; ///< longest edge of each node's own faces, reference
-  Normals reference_, now_;
+  SurfaceNormals reference_, now_;
   std::vector<std::size_t> near_offsets_; ///< [n_nodes + 1]
   std::vector<Index> near_faces_;
 };

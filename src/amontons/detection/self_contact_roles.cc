@@ -23,12 +23,13 @@ bool contains(std::span<const Index> nodes, Index node)
 }
 } // namespace
 
-Roles::Roles(const Surface &surface)
+Roles::Roles(const Surface &surface, std::vector<Role> kept)
   : surface_(surface)
   , by_id_(surface.node_ids.size())
   , size_(tributary_areas(surface, false))
-  , kept_(surface.node_ids.size(), Role::none)
+  , kept_(std::move(kept))
 {
+  kept_.resize(surface.node_ids.size(), Role::none);
   AMONTONS_ASSERT(surface.node_face_offsets.size() == surface.node_ids.size() + 1);
   std::iota(by_id_.begin(), by_id_.end(), 0);
   std::sort(by_id_.begin(), by_id_.end(), [&](Index a, Index b) { return surface.node_ids[a] < surface.node_ids[b]; });

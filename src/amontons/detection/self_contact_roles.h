@@ -27,7 +27,16 @@ namespace amontons
 class Roles
 {
 public:
-  explicit Roles(const Surface &surface);
+  enum class Role : signed char
+  {
+    target = -1,
+    none = 0,
+    impactor = 1
+  };
+
+  /// Nodes that see no face may be left out of the surface, with the faces that hold none that does and are not seen.
+  /// @param kept last roles of the nodes, by local index, [n_nodes]; empty: none
+  explicit Roles(const Surface &surface, std::vector<Role> kept = {});
 
   /// Takes their faces from the nodes that are targets (NoPairReason::target_side).
   /// @param pairing what each node sees @param normals of the nodes now, see Exclusions
@@ -35,14 +44,10 @@ public:
 
   /// Of the last assign(): zones of contact.
   [[nodiscard]] Index n_zones() const { return n_zones_; }
+  /// The last role of each node, out of contact too.
+  [[nodiscard]] std::span<const Role> kept() const { return kept_; }
 
 private:
-  enum class Role : signed char
-  {
-    target = -1,
-    none = 0,
-    impactor = 1
-  };
   static Role opposite(Role role) { return static_cast<Role>(-static_cast<int>(role)); }
 
   void keep_old(const Pairing &pairing);

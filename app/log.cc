@@ -1,4 +1,4 @@
-#include "amontons/parallel/log.h"
+#include "log.h"
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 
