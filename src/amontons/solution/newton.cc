@@ -9,7 +9,8 @@ namespace
 {
 constexpr int max_halvings = 8;
 /// Where the bodies are not linear a step that makes the residual grow by more than this is halved, so many times at
-/// the most. Statuses that change may well make it grow for once.
+/// the most. Statuses that change may well make it grow for once; points that yield and unload in turn (two iterates
+/// that lead to each other) are left behind where no growth at all is allowed.
 constexpr double allowed_growth = 2;
 constexpr int max_damping = 4;
 /// Times a set of statuses may come back before the increment is given up.
@@ -109,6 +110,14 @@ std::vector<double> Newton::solve_linear(const Evaluation &at, double tolerance)
   return step;
 }
 
+bool Newton::runs_away(const Evaluation &from, const Evaluation &next) const
+{
+  if (model_.bodies().tangent_is_constant() || from.pending_motion > 0)
+    return false;
+  const bool plastic_only = model_.small_strain() && next.signature == from.signature;
+  return next.norm > (plastic_only ? 1 : allowed_growth) * from.norm;
+}
+
 Newton::Iterate Newton::step_from(const Iterate &from, const State &start, double time,
                                   std::span<const double> increment, bool damp, double &share)
 {
@@ -119,9 +128,7 @@ Newton::Iterate Newton::step_from(const Iterate &from, const State &start, doubl
     next.state = model_.prescribe(model_.advance(from.state, increment, share), time, share);
     detect(next.state);
     next.at = evaluate(next.state, start, time, {}, false);
-    const bool wild = !model_.bodies().tangent_is_constant() && from.at.pending_motion == 0 && k < max_damping &&
-                      next.at.norm > allowed_growth * from.at.norm;
-    if (next.at.valid && !wild)
+    if (next.at.valid && (k >= max_damping || !runs_away(from.at, next.at)))
       return next;
   }
   throw NumericalFailure("a cell turns inside out");

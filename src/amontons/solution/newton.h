@@ -58,6 +58,7 @@ private:
   void attempt(State &state, const State &start, double to, const State *guess, NewtonOutcome &outcome);
   /// Newton's iterations from `now` to the solution, which replaces it. @throws NumericalFailure with the cause
   void iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome);
+  [[nodiscard]] bool runs_away(const Evaluation &from, const Evaluation &next) const;
   [[nodiscard]] Iterate step_from(const Iterate &from, const State &start, double time,
                                   std::span<const double> increment, bool damp, double &share);
   [[nodiscard]] IterationReport compare(const Iterate &before, const Iterate &after);
