@@ -2,7 +2,6 @@
 import glob
 import math
 import os
-import re
 
 import vtu
 from suite import Row
@@ -32,17 +31,6 @@ def settings(n, x, increments, approach):
     """x: E* a / (R yield) at the end, if the contact radius is EDGE there; approach over a^2/R."""
     return {"mesh.parameters.n": n, "mesh.parameters.a": EDGE, "bodies.0.material.yield-stress": EDGE / RADIUS / x,
             "boundary.2.displacement.y": f"{-approach * EDGE**2 / RADIUS}*t^2", "loading.increments": increments}
-
-
-def points(run, x):
-    """Of each increment (E* a / (R yield), p_m / yield), the contact radius from the area of the closed nodes."""
-    strength, found = EDGE / RADIUS / x, []
-    for increment in run.increments:
-        contact = increment["contacts"][0]
-        if contact["contact_area"] > 0:
-            radius = math.sqrt(contact["contact_area"] / math.pi)
-            found.append((radius / RADIUS / strength, -contact["normal_force"][1] / contact["contact_area"] / strength))
-    return found
 
 
 def edge(run):
@@ -79,15 +67,15 @@ def first_yield(run, x):
 
 def verify(bench):
     n = bench.choose(12, 30, 60)
-    strengths = bench.choose([10, 100], [5, 10, 20, 40, 80, 160])
+    strengths = bench.choose([100], [5, 10, 20, 40, 80, 160])
     # The contact radius of Hertz is sqrt(R approach), that of a plastic half-space about 1.65 times it.
     elastic, onsets, *plastic = bench.run_all(
-        [(DECK, settings(n, 1, 1, 1.0)), (DECK, settings(n, 3, 60, 1.0), 1)]
+        [(DECK, settings(n, 1, 1, 1.0)), (DECK, settings(n, 3, bench.choose(30, 60), 1.0), 1)]
         + [(DECK, settings(n, x, bench.choose(10, 20), 0.5 if x < 20 else 0.38)) for x in strengths])
     points = [state(run, x) for run, x in zip(plastic, strengths)]
     x, mean = state(elastic, 1)
-    rows = [Row(f"elastic: p_m / (E* a/R), n {n}", 4 / (3 * math.pi), mean / x, 1e-2, runs=[elastic]),
-            Row(f"first yield: p_0 / yield, n {n}", onset(POISSON), first_yield(onsets, 3), 2e-2, runs=[onsets])]
+    rows = [Row(f"elastic: p_m / (E* a/R), n {n}", 4 / (3 * math.pi), mean / x, bench.choose(4e-2, 1e-2), runs=[elastic]),
+            Row(f"first yield: p_0 / yield, n {n}", onset(POISSON), first_yield(onsets, 3), bench.choose(4e-2, 2e-2), runs=[onsets])]
     for (x, mean), run in zip(points, plastic):
         if x > 40:  # fully plastic: 2.8 to 3
             rows.append(Row(f"plateau: p_m / yield at E* a/(R yield) = {x:.1f}, n {n}", 2.9, mean, 0.1 / 2.9, runs=[run]))
