@@ -22,6 +22,12 @@ sys.path.insert(0, os.path.join(ROOT, "scripts"))
 import results  # noqa: E402  (scripts/results.py)
 
 LEVELS = ("coarse", "usual", "fine")
+# Contact elements by name: what a deck sets for them, and why they are short where meshes do not match.
+ELEMENTS = {
+    "node-to-face": ({}, "constraints at nodes do not pass on a uniform pressure where meshes do not match: an error of the pressure that "
+                         "alternates from node to node and does not shrink with the mesh, while means and forces converge"),
+    "mortar": ({"contact.0.discretization": "mortar"}, ""),
+}
 
 
 class NotSolved(RuntimeError):

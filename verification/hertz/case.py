@@ -3,10 +3,10 @@ import math
 
 import mesh
 from contact_figures import hertz_fit
-from suite import Row, order
+from suite import ELEMENTS, Row, order
 from svg import Plot
 
-TITLE = "Spheres of Hertz"
+TITLE = "Spheres and cylinder of Hertz"
 RADIUS, POISSON, EDGE = 1.0, 0.3, 0.01  # of each sphere, E = 1; contact radius at the end
 DOMAIN = {2: 1000, 3: 100}  # size over EDGE, axisymmetric and in space
 GROWTH = {2: 1.1, 3: 1.3}
@@ -101,6 +101,28 @@ def profile_plot(run, pair, title):
             .add("Hertz", [(k / 200, math.sqrt(1 - (k / 200) ** 2)) for k in range(201)]))
 
 
+def cylinder_rows(bench, n):
+    """Cylinder (R = 1, E = 1, nu = 0.3) on a block (E = 2, nu = 0.25), by each contact element, at the computed force per length
+    (Johnson 1985, eq. 4.43 to 4.45); the model is one half."""
+    modulus = 1 / ((1 - 0.3**2) / 1 + (1 - 0.25**2) / 2)
+    found = []
+    plot = Plot("Hertz, cylinder on block, cells 4:3 that do not match: pressure", "x/b", "p/p0")
+    for element, (chosen, reason) in ELEMENTS.items():
+        blocks = [n // 2, 3 * n // 4]
+        runs = bench.run_all([("examples/hertz-cylinder/hertz-cylinder.yaml", {
+            "mesh.parameters.n_cylinder": n, "mesh.parameters.n_block": n_block, **chosen}) for n_block in blocks])
+        for n_block, run in zip(blocks, runs):
+            total, nodes = force(run, 2), radial(run)
+            peak, width = math.sqrt(total * modulus / math.pi), math.sqrt(4 * total / (math.pi * modulus))
+            label = f"cylinder on block, {n}:{n_block}, {element}"
+            found += [Row(f"{label}: greatest nodal pressure / p0", 1, max(node["pressure"] for node in nodes) / peak,
+                          bench.choose(1e-2, 5e-3), runs=[run], reason=reason),
+                      Row(f"{label}: half-width / b", 1, hertz_fit(nodes)[0] / width, bench.choose(1e-2, 5e-3), reason=reason)]
+        plot.add(element, [(node["x"] / width, node["pressure"] / peak) for node in nodes if node["x"] < 1.1 * width], "points")
+    bench.plot("cylinder", plot.add("Hertz", [(k / 200, math.sqrt(1 - (k / 200) ** 2)) for k in range(201)]))
+    return found
+
+
 def verify(bench):
     axisymmetric = bench.choose([8, 16], [30, 60], [30, 60, 120])
     space = bench.choose([], [4, 8], [5, 10, 20])
@@ -121,4 +143,4 @@ def verify(bench):
         if sizes := space[:2] if equal else space:
             runs = bench.run_all([deck(bench, 3, equal, n) for n in sizes])
             found += rows(f"{label}, quarter in space", runs, sizes, pair, 4, in_space)
-    return found
+    return found + cylinder_rows(bench, bench.choose(16, 60))

@@ -3,14 +3,11 @@ import glob
 import os
 
 import mesh
-from suite import Row
+from suite import ELEMENTS, Row
 from svg import Plot
 from vtu import vtu_arrays
 
 TITLE = "Patch tests"
-# Contact elements to be tested: name, settings, and why it is short on meshes that do not match.
-ELEMENTS = [("node-to-face", {}, "constraints at nodes do not pass on a uniform pressure where meshes do not match; the error is "
-             "local, alternates from node to node and does not shrink with the mesh")]
 EXACT = 1e-8  # tolerance; the solver's own is set below it
 SOLVER = {"solver.tolerance": 1e-12}
 
@@ -82,7 +79,7 @@ def pressure_plot(runs):
 
 def verify(bench):
     rows = []
-    for element, chosen, reason in ELEMENTS:
+    for element, (chosen, reason) in ELEMENTS.items():
         for name, deck, meshes, figures, axis in tests(bench):
             runs = [bench.run(deck, {**SOLVER, **chosen, **settings}, pictures=1) for settings in meshes]
             for run, meeting in zip(runs, ("matching", "not matching")):
