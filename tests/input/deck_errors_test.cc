@@ -32,7 +32,7 @@ TEST_P(DeckError, SaysWhatAndWhere)
 const BadDeck words[]{
     {"UnknownKey", "young", "yuong",
      "deck.yaml:6:37: unknown key 'yuong' in bodies.0.material (did you mean 'young'?); allowed here: law, young, "
-     "poisson"},
+     "poisson, yield-stress, isotropic-hardening, saturation-gain, saturation-rate, kinematic-hardening"},
     {"UnknownTopKey", "loading", "lodaing",
      "deck.yaml:20:1: unknown key 'lodaing' (did you mean 'loading'?); allowed here: title, mesh, strain, bodies, "
      "contact, boundary, loading, detection, solver, output"},
@@ -43,8 +43,8 @@ const BadDeck words[]{
      "deck.yaml:20:11: unknown key 'min_increment' in loading (did you mean 'min-increment'?); allowed here: end, "
      "increments, fixed, min-increment, max-increment"},
     {"Choice", "linear-elastic", "linear-elastik",
-     "deck.yaml:6:21: bodies.0.material.law: must be one of linear-elastic, neo-hookean, rigid, not 'linear-elastik' "
-     "(did you mean 'linear-elastic'?)"},
+     "deck.yaml:6:21: bodies.0.material.law: must be one of linear-elastic, neo-hookean, von-mises, rigid, not "
+     "'linear-elastik' (did you mean 'linear-elastic'?)"},
     {"CoupledMultigrid", "loading:", "solver: {linear: amg, multipliers: coupled}\nloading:",
      "deck.yaml:20:36: solver.multipliers: must be condensed with linear: amg or feti; coupled goes with linear: "
      "direct "
@@ -63,6 +63,12 @@ const BadDeck words[]{
      "deck.yaml:14:15: contact.0.friction: the key 'coefficient' is missing (required with law: coulomb)"},
     {"CoefficientWithoutFriction", "law: coulomb", "law: none",
      "deck.yaml:14:40: contact.0.friction.coefficient: has no meaning with law: none"},
+    {"YieldStressOfElastic", "poisson: 0.3", "poisson: 0.3, yield-stress: 1",
+     "deck.yaml:6:78: bodies.0.material.yield-stress: has a meaning with law: von-mises only"},
+    {"NoYieldStress", "linear-elastic", "von-mises",
+     "deck.yaml:6:15: bodies.0.material: the key 'yield-stress' is missing (required with law: von-mises)"},
+    {"HalfOfVoce", "linear-elastic, ", "von-mises, yield-stress: 1, saturation-gain: 2, ",
+     "deck.yaml:6:15: bodies.0.material: the keys 'saturation-gain' and 'saturation-rate' go together"},
     {"RigidWithYoung", "{law: rigid}", "{law: rigid, young: 1}",
      "deck.yaml:9:35: bodies.1.material.young: has no meaning with law: rigid"},
 };
@@ -87,7 +93,8 @@ const BadDeck types[]{
      "deck.yaml:20:23: loading.increments: must be at least 1, not 0"},
     {"Boolean", "increments: 10", "fixed: 1", "deck.yaml:20:18: loading.fixed: must be true or false, not '1'"},
     {"MapIsScalar", "{law: rigid}", "rigid",
-     "deck.yaml:9:15: bodies.1.material: must be a map of the keys law, young, poisson, not 'rigid'"},
+     "deck.yaml:9:15: bodies.1.material: must be a map of the keys law, young, poisson, "
+     "yield-stress, isotropic-hardening, saturation-gain, saturation-rate, kinematic-hardening, not 'rigid'"},
     {"ListIsMap", "contact:\n  - name", "contact:\n    name",
      "deck.yaml:11:5: contact: must be a list of entries, not a map of keys"},
     {"EmptyList", "fix: [x, y]", "fix: []",
@@ -160,6 +167,9 @@ const BadDeck conflicts[]{
      "finite"},
     {"HyperelasticInSmallStrain", "linear-elastic", "neo-hookean",
      "deck.yaml:6:21: bodies.0.material.law: neo-hookean wants strain: finite; use linear-elastic with strain: small"},
+    {"PlasticInFiniteStrain", "bodies:\n  - name: block\n    region: block\n    material: {law: linear-elastic, ",
+     "strain: finite\nbodies:\n  - name: block\n    region: block\n    material: {law: von-mises, yield-stress: 1, ",
+     "deck.yaml:7:21: bodies.0.material.law: von-mises holds in strain: small only"},
     {"MeanDilatationInPlaneStress", "plane-strain}\nbodies:\n  - name: block",
      "plane-stress}\nbodies:\n  - name: block\n    mean-dilatation: true",
      "deck.yaml:5:22: bodies.0.mean-dilatation: must be false in plane stress, where nothing locks"},

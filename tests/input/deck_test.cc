@@ -98,6 +98,23 @@ output: {fields: [stress], every: 0}
   EXPECT_EQ(deck.output.every, 0);
 }
 
+TEST(Deck, ReadsHardening)
+{
+  const std::string law = "von-mises, yield-stress: 3, isotropic-hardening: 20, saturation-gain: 1.5, "
+                          "saturation-rate: 7, kinematic-hardening: 50, ";
+  const MaterialOptions material = read_text(replaced(plane_deck, "linear-elastic, ", law)).bodies[0].material;
+  EXPECT_EQ(material.law, MaterialLaw::von_mises);
+  EXPECT_EQ(material.yield_stress, 3);
+  EXPECT_EQ(material.isotropic_hardening, 20);
+  EXPECT_EQ(material.saturation_gain, 1.5);
+  EXPECT_EQ(material.saturation_rate, 7);
+  EXPECT_EQ(material.kinematic_hardening, 50);
+  const std::string perfect = replaced(plane_deck, "linear-elastic, ", "von-mises, yield-stress: 3, ");
+  EXPECT_EQ(read_text(perfect).bodies[0].material.isotropic_hardening, 0);
+  EXPECT_EQ(read_text(perfect + "output: {fields: [plastic-strain]}\n").output.fields,
+            std::vector{OutputField::plastic_strain});
+}
+
 TEST(Deck, AutoIsTheSameAsNothing)
 {
   const Deck deck = read_text(plane_deck + "detection: {distance: auto, extension: auto}\n");

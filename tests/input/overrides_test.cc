@@ -32,7 +32,8 @@ TEST(Overrides, ErrorsNameThem)
             "0.5, not 0.7");
   EXPECT_EQ(error_of(plane_deck, {"bodies.0.material.poison=0.2"}),
             "--set bodies.0.material.poison=0.2: unknown key 'poison' in bodies.0.material (did you mean 'poisson'?); "
-            "allowed here: law, young, poisson");
+            "allowed here: law, young, poisson, "
+            "yield-stress, isotropic-hardening, saturation-gain, saturation-rate, kinematic-hardening");
   EXPECT_EQ(error_of(plane_deck, {"solvr.tolerance=0.2"}),
             "--set solvr.tolerance=0.2: unknown key 'solvr' (did you mean 'solver'?); allowed here: title, mesh, "
             "strain, bodies, contact, boundary, loading, detection, solver, output");

@@ -20,7 +20,7 @@ const std::vector<BodyOptions> bodies = []
   list[2].region = "block";
   return list;
 }();
-const std::vector<OutputField> all_fields{OutputField::displacement, OutputField::stress};
+const std::vector<OutputField> all_fields{OutputField::displacement, OutputField::stress, OutputField::plastic_strain};
 
 TEST(BodyGrid, HoldsCellsOfEveryShapeAndRigidFacets)
 {
@@ -63,6 +63,15 @@ TEST(BodyGrid, GivesStressWithItsComponentsAndVonMises)
   EXPECT_DOUBLE_EQ(equivalent[1], 10);           // uniaxial
   EXPECT_DOUBLE_EQ(equivalent[2], std::sqrt(3)); // pure shear
   EXPECT_EQ(equivalent[3], 0);
+}
+
+TEST(BodyGrid, GivesPlasticStrainWhereThereIsAny)
+{
+  Example example;
+  EXPECT_EQ(body_grid(example.state, bodies, all_fields).text().find("plastic_strain"), std::string::npos);
+  example.state.plastic_strain = {0.25, 0, 0.5};
+  const VtuReader vtu(body_grid(example.state, bodies, all_fields).text());
+  EXPECT_EQ(vtu.numbers("plastic_strain"), (std::vector<double>{0.25, 0, 0.5, 0}));
 }
 
 TEST(BodyGrid, WritesOnlyTheFieldsAskedFor)

@@ -95,7 +95,7 @@ struct BodyAssembly::Impl
                    std::span<const Index> subdomain_of_cell);
   bool add_cell_forces(bool of_linear, std::span<const double> displacement, std::span<double> force) const;
   bool add_cell_tangents(bool of_linear, std::span<const double> displacement);
-  [[nodiscard]] bool has_blocks(bool linear) const;
+  [[nodiscard]] bool has_blocks(bool of_linear) const;
   void start_tangent();
 
   Strain strain;
@@ -145,15 +145,15 @@ void BodyAssembly::Impl::make_blocks(const Mesh &mesh, Kinematics kinematics, co
     list.subdomain = subdomain;
     list.moduli = elastic_moduli(bodies[body], strain);
     if (bodies[body].material.law == MaterialLaw::von_mises)
-      list.hardening = hardening(bodies[body], strain, kinematics);
+      list.hardening = hardening(bodies[body], strain);
     list.mean_dilatation = mean_dilatation(bodies[body], shape, kinematics);
     blocks.push_back(make_cell_block(shape, kinematics, strain, std::move(list), points, subdomains[subdomain]));
   }
 }
 
-bool BodyAssembly::Impl::has_blocks(bool linear) const
+bool BodyAssembly::Impl::has_blocks(bool of_linear) const
 {
-  return std::any_of(blocks.begin(), blocks.end(), [&](const auto &block) { return block->is_linear() == linear; });
+  return std::any_of(blocks.begin(), blocks.end(), [&](const auto &block) { return block->is_linear() == of_linear; });
 }
 
 bool BodyAssembly::Impl::add_cell_forces(bool of_linear, std::span<const double> displacement,

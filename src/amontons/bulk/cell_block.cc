@@ -215,9 +215,8 @@ template<class Cell>
 std::unique_ptr<CellBlock> make(Strain strain, CellList list, std::span<const double> points,
                                 const SubdomainMatrix &matrix)
 {
-  if constexpr (!Cell::plane_stress)
-    if (list.hardening)
-      return std::make_unique<PlasticBlock<Cell>>(std::move(list), points, matrix);
+  if (list.hardening)
+    return std::make_unique<PlasticBlock<Cell>>(std::move(list), points, matrix);
   if (strain == Strain::small)
     return std::make_unique<SmallStrainBlock<Cell>>(std::move(list), points, matrix);
   return std::make_unique<FiniteStrainBlock<Cell>>(std::move(list), points, matrix);

@@ -4,7 +4,7 @@
 
 namespace amontons
 {
-/// Strain at one point of a cell in small strain; the strain across is zero in the plane.
+/// Strain at one point of a cell in small strain; zero across the plane.
 template<class Cell, typename Scalar>
 SymmetricTensor<Scalar> small_strain(const CellPoint<Cell> &point, const typename Cell::template NodalValues<Scalar> &u)
 {
@@ -57,8 +57,17 @@ public:
     for (int q = 0; q < Cell::points; ++q)
     {
       const SymmetricTensor<Scalar> strain = small_strain<Cell, Scalar>(points[q], u);
-      laws_[q] = VonMises<Scalar>(moduli.shear, law, start[q], strain);
-      dilatation_[q] = strain.template head<3>().sum();
+      if constexpr (Cell::plane_stress)
+      {
+        const PlaneStressVonMises<Scalar> plane(moduli, law, start[q], strain);
+        laws_[q] = plane;
+        dilatation_[q] = plane.dilatation;
+      }
+      else
+      {
+        laws_[q] = VonMises<Scalar>(moduli.shear, law, start[q], strain);
+        dilatation_[q] = strain.template head<3>().sum();
+      }
       volume_ += points[q].weight;
       volume_change += points[q].weight * dilatation_[q];
     }

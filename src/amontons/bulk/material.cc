@@ -18,13 +18,11 @@ ElasticModuli elastic_moduli(const BodyOptions &body, Strain strain)
   return {material.young / (2 * (1 + material.poisson)), material.young / (3 * (1 - 2 * material.poisson))};
 }
 
-Hardening hardening(const BodyOptions &body, Strain strain, Kinematics kinematics)
+Hardening hardening(const BodyOptions &body, Strain strain)
 {
   const auto fail = [&](const std::string &what) { throw UserError(body.where, "body '" + body.name + "': " + what); };
   if (strain == Strain::finite)
     fail("von-mises holds in small strain only; finite strain has the law neo-hookean, which is elastic");
-  if (kinematics == Kinematics::plane_stress)
-    fail("von-mises is not made for plane stress; take plane strain, axisymmetry or 3D");
   const MaterialOptions &material = body.material;
   if (!(material.yield_stress > 0) || !std::isfinite(material.yield_stress))
     fail("yield-stress must be positive");

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <limits>
+
 namespace amontons
 {
 /// Components xx, yy, zz, xy, yz, xz of a symmetric tensor; shear strains are the tensor's, half the engineer's.
@@ -38,8 +40,8 @@ struct Hardening
   }
 };
 
-/// @throws UserError for a constant out of range, or finite strain or plane stress, for which the law is not made
-Hardening hardening(const BodyOptions &body, Strain strain, Kinematics kinematics);
+/// @throws UserError for a constant out of range, or finite strain, for which the law is not made
+Hardening hardening(const BodyOptions &body, Strain strain);
 
 /// What a point remembers: its plastic strain (traceless) and the equivalent plastic strain, int sqrt(2/3 de_p : de_p).
 template<typename Scalar>
@@ -122,6 +124,64 @@ private:
         break;
     }
     return amount;
+  }
+};
+
+/// The same in plane stress: the strain across follows from sigma_33 = 0, and is eliminated from the tangent, to which
+/// the bulk modulus is still to be added (to hh), as it is to that of VonMises.
+template<typename Scalar>
+class PlaneStressVonMises : public VonMises<Scalar>
+{
+public:
+  using Tensor = typename VonMises<Scalar>::Tensor;
+
+  /// @param strain in the plane; the component zz is not read
+  PlaneStressVonMises(const ElasticModuli &moduli, const Hardening &law, const PlasticHistory<double> &start,
+                      Tensor strain)
+  {
+    strain[2] = 0;
+    find_strain(moduli, law, start, strain);
+    dilatation = strain.template head<3>().sum();
+    PointTangent<Scalar> &t = this->tangent;
+    const Scalar along_unit = t.hh + moduli.bulk, along_normal = t.ff * this->normal[2], across = slope(moduli);
+    t.hh -= along_unit * along_unit / across;
+    t.fh -= along_unit * along_normal / across;
+    t.ff -= along_normal * along_normal / across;
+  }
+
+  Scalar dilatation; ///< volumetric strain
+
+private:
+  /// dsigma_33 / de_33
+  [[nodiscard]] Scalar slope(const ElasticModuli &moduli) const
+  {
+    const PointTangent<Scalar> &t = this->tangent;
+    return t.id + t.swap + t.hh + moduli.bulk + t.ff * this->normal[2] * this->normal[2];
+  }
+
+  /// sigma_33 grows with e_33 at a slope between bulk and bulk + 4/3 shear, so there is one root. Newton's method, but
+  /// by halves where it would leave the bounds met so far.
+  void find_strain(const ElasticModuli &moduli, const Hardening &law, const PlasticHistory<double> &start,
+                   Tensor &strain)
+  {
+    double size = law.yield / moduli.bulk;
+    for (const int i : {0, 1, 3})
+      size += std::abs(strain[i]);
+    double low = -std::numeric_limits<double>::infinity(), high = -low;
+    bool arrived = false;
+    for (int iteration = 0; iteration < 100; ++iteration)
+    {
+      static_cast<VonMises<Scalar> &>(*this) = VonMises<Scalar>(moduli.shear, law, start, strain);
+      if (arrived)
+        break;
+      const Scalar across = this->stress[2] + moduli.bulk * strain.template head<3>().sum();
+      (real_part(across) < 0 ? low : high) = real_part(strain[2]);
+      const Scalar step = -across / slope(moduli);
+      arrived = std::abs(step) <= 1e-13 * size;
+      strain[2] += step;
+      if (const double next = real_part(strain[2]); !arrived && (next <= low || next >= high))
+        strain[2] = (low + high) / 2;
+    }
   }
 };
 } // namespace amontons

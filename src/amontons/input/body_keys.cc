@@ -70,10 +70,6 @@ void check_body(const Value &value, BodyOptions &body, ReadContext &context)
   if (shape && body.material.law != MaterialLaw::rigid)
     value.find("material")->find("law")->fail("must be rigid for a body given by its shape");
   body.where = region ? region->where : shape->where;
-  if (body.material.law == MaterialLaw::von_mises && context.kinematics == Kinematics::plane_stress)
-    value.find("material")
-        ->find("law")
-        ->fail("von-mises is not made for plane stress; take plane-strain, axisymmetric or 3d");
   const Value *mean = value.find("mean-dilatation");
   if (mean && body.material.law == MaterialLaw::rigid)
     mean->fail("has no meaning for a rigid body");
