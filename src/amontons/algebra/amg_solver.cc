@@ -1,5 +1,7 @@
 #include "amontons/algebra/amg_solver.h"
 
+#include "amontons/algebra/linear_solver_failure.h"
+
 #include "amontons/algebra/petsc_matrix.h"
 
 #include <algorithm>
@@ -58,13 +60,13 @@ public:
       const double digits = std::log10(norm / tolerance);
       const bool converged = iterate(tolerance, fresh_ ? max_iterations : allowed_iterations(digits));
       if (!converged && fresh_)
-        throw NumericalFailure("the linear solver (multigrid) does not converge");
+        throw LinearSolverFailure("the linear solver (multigrid) does not converge");
       if (!converged)
       {
         set_up();
         check_petsc(VecSet(matrix_.solution(), 0), "start");
         if (!iterate(tolerance, max_iterations))
-          throw NumericalFailure("the linear solver (multigrid) does not converge");
+          throw LinearSolverFailure("the linear solver (multigrid) does not converge");
       }
       judge(digits);
     }

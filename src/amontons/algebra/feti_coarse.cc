@@ -1,6 +1,6 @@
 #include "amontons/algebra/feti_coarse.h"
 
-#include "amontons/base/error.h"
+#include "amontons/algebra/linear_solver_failure.h"
 
 #include <Eigen/QR>
 
@@ -162,7 +162,7 @@ std::vector<Index> FetiCoarse::choose_pins(std::span<const double> values, Index
   for (Index i = 0; i < pattern_.size(); ++i)
     shifted[diagonal(i)] += shift;
   if (!factor_.factorize(pattern_, shifted))
-    throw NumericalFailure("the coarse problem of the subdomains is not positive semidefinite");
+    throw LinearSolverFailure("the coarse problem of the subdomains is not positive semidefinite");
   std::mt19937 random(1);
   std::uniform_real_distribution<double> number(-1, 1);
   Eigen::MatrixXd x = Eigen::MatrixXd::NullaryExpr(pattern_.size(), n_free, [&] { return number(random); });

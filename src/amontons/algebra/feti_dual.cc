@@ -1,6 +1,6 @@
 #include "amontons/algebra/feti_dual.h"
 
-#include "amontons/base/error.h"
+#include "amontons/algebra/linear_solver_failure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace amontons
 {
 namespace
 {
-constexpr int max_iterations = 1000;
+constexpr int max_iterations = 500;
 } // namespace
 
 FetiDual::FetiDual(const Layout &layout, std::span<const SubdomainMatrix> subdomains, FetiOptions options)
@@ -280,7 +280,7 @@ void FetiDual::iterate(std::vector<double> &multipliers, std::vector<double> &z,
   for (int iteration = 0; force_norm() > limit; ++iteration)
   {
     if (iteration == max_iterations)
-      throw NumericalFailure("the iteration over the subdomains' forces does not converge");
+      throw LinearSolverFailure("the iteration over the subdomains' forces does not converge");
     ++n_iterations_;
     std::vector<double> p = z;
     project(p, true);

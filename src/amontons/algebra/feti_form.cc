@@ -1,6 +1,6 @@
 #include "amontons/algebra/feti_form.h"
 
-#include "amontons/base/error.h"
+#include "amontons/algebra/linear_solver_failure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace
 constexpr double default_tolerance = 1e-10;
 /// What one round in single precision can gain at the most.
 constexpr double round_reduction = 1e-5;
-constexpr int max_rounds = 12;
+constexpr int max_rounds = 12, max_idle_rounds = 3;
 /// Rounds that gain less than this have come to round-off, which may be this part of the right side.
 constexpr double least_gain = 0.5, allowed_round_off = 1e-6;
 /// By how much at most a round that gained nothing makes the next one's target smaller.
@@ -290,7 +290,7 @@ void FetiForm::solve(std::span<const double> rhs, std::span<double> solution, do
     for (std::size_t i = 0; i < to.size(); ++i)
       to[i] += what[i];
   };
-  for (int round = 0; left.norm > limit; ++round)
+  for (int round = 0, n_idle = 0; left.norm > limit; ++round)
   {
     const FetiStep step = dual_->solve(left.forces, left.gaps, left.motions, round_reduction, target);
     add(sum.unknowns, step.unknowns);
@@ -303,8 +303,9 @@ void FetiForm::solve(std::span<const double> rhs, std::span<double> solution, do
     // The iteration stops on the preconditioned residual, which may be much the smaller.
     if (stagnates)
       target *= std::max(0.3 * limit / left.norm, sharper);
-    if (round == max_rounds || !std::isfinite(left.norm))
-      throw NumericalFailure("the iteration over the subdomains does not converge");
+    n_idle += stagnates;
+    if (round == max_rounds || n_idle > max_idle_rounds || !std::isfinite(left.norm))
+      throw LinearSolverFailure("the iteration over the subdomains does not converge");
     before = left.norm;
   }
   recover(rhs, sum, solution);

@@ -1,6 +1,6 @@
 #include "amontons/algebra/subdomain_factor.h"
 
-#include "amontons/base/error.h"
+#include "amontons/algebra/linear_solver_failure.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
@@ -79,7 +79,7 @@ void SubdomainFactor::factorize_interior()
     inner_->analyze(pattern);
   }
   if (!inner_->factorize(pattern, values))
-    throw NumericalFailure("a subdomain's stiffness is not positive definite");
+    throw LinearSolverFailure("a subdomain's stiffness is not positive definite");
 }
 
 /// S, its lower triangle by columns. [n_boundary * n_boundary]
@@ -137,7 +137,7 @@ void SubdomainFactor::invert(std::vector<float> &dense)
   if (info == 0)
     spotri_("L", &n, dense.data(), &n, &info);
   if (info != 0)
-    throw NumericalFailure("a subdomain's stiffness has a kernel beyond rigid motions");
+    throw LinearSolverFailure("a subdomain's stiffness has a kernel beyond rigid motions");
 }
 
 void SubdomainFactor::factorize()

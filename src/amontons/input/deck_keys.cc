@@ -66,7 +66,8 @@ Section<SolverOptions> solver_keys()
        {"feti", LinearSolverType::feti}},
       optional,
       "how linear systems are solved; direct: by factorisation; amg: by iteration with algebraic multigrid; feti: "
-      "by subdomains with the contact between them (small strain); auto: what is fastest for the size");
+      "by subdomains with the contact between them (small strain); auto: what is fastest for the size, and another "
+      "where that one fails");
   keys.choice(
       "multipliers", &SolverOptions::multipliers,
       {{"condensed", MultiplierForm::condensed}, {"coupled", MultiplierForm::coupled}}, optional,

@@ -6,6 +6,8 @@
 #include "amontons/algebra/feti_form.h"
 #include "amontons/bulk/partition.h"
 
+#include <algorithm>
+
 namespace amontons
 {
 namespace
@@ -37,41 +39,53 @@ std::vector<double> reference_places(const Model &model)
       out.push_back(model.reference(node)[c]);
   return out;
 }
-/// 3D displacements from which multigrid is faster than a factorisation, as measured (docs/decisions/0011).
-constexpr Index amg_from = 15000;
+/// 3D displacements from which multigrid is faster than a factorisation (docs/decisions/0011), and subdomains are
+/// faster than both (0012), as measured.
+constexpr Index amg_from = 15000, feti_from = 40000;
 
-/// The solver that `linear: auto` stands for.
-LinearSolverType linear_solver(const ProblemOptions &options, const Mesh &mesh)
+/// Whether the stiffness stays as it is for the whole run, so that subdomains are factorised once.
+bool has_constant_stiffness(const ProblemOptions &options)
 {
-  const LinearSolverType linear = options.solver.linear;
-  const bool coupled = options.solver.multipliers == MultiplierForm::coupled;
-  if (coupled && (linear == LinearSolverType::amg || linear == LinearSolverType::feti))
-    throw UserError("solver: 'multipliers: coupled' goes with 'linear: direct' only: the multipliers' part of the "
-                    "matrix is no work for amg or feti; take 'multipliers: condensed'");
-  if (linear != LinearSolverType::automatic)
-    return linear;
-  const bool large = mesh.dim == 3 && mesh.n_nodes() * mesh.dim > amg_from;
-  return large && !coupled ? LinearSolverType::amg : LinearSolverType::direct;
+  return options.strain == Strain::small && std::all_of(options.bodies.begin(), options.bodies.end(),
+                                                        [](const BodyOptions &body) {
+                                                          return body.material.law == MaterialLaw::linear_elastic ||
+                                                                 body.material.law == MaterialLaw::rigid;
+                                                        });
 }
 } // namespace
 
+std::vector<LinearSolverType> linear_solvers(const ProblemOptions &options, const Mesh &mesh)
+{
+  using enum LinearSolverType;
+  const LinearSolverType linear = options.solver.linear;
+  const bool coupled = options.solver.multipliers == MultiplierForm::coupled;
+  if (coupled && (linear == amg || linear == feti))
+    throw UserError("solver: 'multipliers: coupled' goes with 'linear: direct' only: the multipliers' part of the "
+                    "matrix is no work for amg or feti; take 'multipliers: condensed'");
+  if (linear == feti && options.strain != Strain::small)
+    throw UserError("solver: 'linear: feti' solves problems of small strain: in finite strain the stiffness of a "
+                    "compressed subdomain is not positive; take 'amg' or 'direct'");
+  if (linear != automatic)
+    return {linear};
+  const Index n_displacements = mesh.n_nodes() * mesh.dim;
+  if (coupled || mesh.dim == 2 || n_displacements <= amg_from)
+    return {direct};
+  if (n_displacements > feti_from && has_constant_stiffness(options))
+    return {feti, amg, direct};
+  return {amg, direct};
+}
+
 std::vector<Index> make_partition(const ProblemOptions &options, const Mesh &mesh)
 {
-  if (linear_solver(options, mesh) != LinearSolverType::feti)
+  if (linear_solvers(options, mesh).front() != LinearSolverType::feti)
     return {};
   return partition_cells(mesh, options.bodies, subdomain_size(mesh.dim));
 }
 
-std::unique_ptr<SystemForm> make_form(const Model &model)
+std::unique_ptr<SystemForm> make_form(const Model &model, LinearSolverType linear)
 {
-  const LinearSolverType linear = linear_solver(model.options(), model.mesh());
   if (linear == LinearSolverType::feti)
-  {
-    if (!model.small_strain())
-      throw UserError("solver: 'linear: feti' solves problems of small strain: in finite strain the stiffness of a "
-                      "compressed subdomain is not positive; take 'amg' or 'direct'");
     return make_feti(model);
-  }
   if (model.options().solver.multipliers == MultiplierForm::coupled)
     return std::make_unique<CoupledForm>(model.layout(), model.bodies().subdomains(), make_direct_solver());
   return std::make_unique<CondensedForm>(model.layout(), model.bodies().subdomains(),

@@ -6,10 +6,15 @@
 
 namespace amontons
 {
-/// The form in which the model's systems are solved: what `solver` of the deck says, or what is fastest for its size,
-/// dimension and strain. The model must outlive it. Collective.
-std::unique_ptr<SystemForm> make_form(const Model &model);
+/// What `solver: {linear: ...}` stands for. For `auto` the fastest for size, dimension, strain and materials comes
+/// first; each of the others takes over where the one before it fails. @throws UserError where the deck's forms do not
+/// go together
+std::vector<LinearSolverType> linear_solvers(const ProblemOptions &options, const Mesh &mesh);
 
-/// The subdomain of each cell that the form wants, or nothing where one subdomain will do.
+/// The form in which the model's systems are solved. The model must outlive it. Collective.
+/// @param linear one of linear_solvers()
+std::unique_ptr<SystemForm> make_form(const Model &model, LinearSolverType linear);
+
+/// The subdomain of each cell that the first of linear_solvers() wants, or nothing where one subdomain will do.
 std::vector<Index> make_partition(const ProblemOptions &options, const Mesh &mesh);
 } // namespace amontons

@@ -1,6 +1,8 @@
+#include "amontons/algebra/linear_solver_failure.h"
 #include "amontons/solution/form_choice.h"
 #include "amontons/solution/newton_iterate.h"
 
+#include <limits>
 #include <map>
 
 namespace amontons
@@ -23,17 +25,36 @@ constexpr double linear_share = 0.3, loosest = 0.1;
 constexpr double few_changes = 0.01;
 /// The loosest where prescribed motion is still to come.
 constexpr double first_share = 1e-3;
+/// Each iteration that does not bring the residual down by this makes the loosest tolerance smaller.
+constexpr double progress = 0.5, tightening = 0.1;
+
+/// Of the softest body's Young's modulus to the stiffest's. What a linear solve leaves of forces in a stiff body may be
+/// more than all forces that a soft one bears, those of contact among them.
+double softness(const ProblemOptions &options)
+{
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const BodyOptions &body : options.bodies)
+    if (body.material.young > 0)
+    {
+      least = std::min(least, body.material.young);
+      most = std::max(most, body.material.young);
+    }
+  return most > 0 ? least / most : 1;
+}
 } // namespace
 
-Newton::Newton(Model &model, Counters &counters, Timers &timers, std::function<void(const IterationReport &)> report)
+Newton::Newton(Model &model, LinearSolverType linear, Counters &counters, Timers &timers,
+               std::function<void(const IterationReport &)> report)
   : model_(model)
   , counters_(counters)
+  , earlier_(counters)
   , timers_(timers)
   , report_(std::move(report))
-  , form_(make_form(model))
+  , form_(make_form(model, linear))
   , contacts_(model, *form_)
   , free_motions_(model)
   , predictor_(model)
+  , softness_(softness(model.options()))
 {
   free_motions_.check_restrained();
   if (free_motions_.any())
@@ -75,7 +96,7 @@ bool Newton::detect(State &state)
 /// Of the right side's forces. As far as the residual that the change of statuses and the bodies' nonlinearity will
 /// leave anyway (Eisenstat, Walker 1996), and whole once nothing but the linear system is left.
 /// @param trial the solution tells nodes that close with friction where their slip starts
-double Newton::linear_tolerance(const Evaluation &at, double last_norm, bool settled, bool trial) const
+double Newton::linear_tolerance(const Evaluation &at, double last_norm, double forcing, bool settled, bool trial) const
 {
   const double tolerance = linear_share * model_.options().solver.tolerance;
   const auto n = static_cast<std::size_t>(model_.layout().n_displacement_unknowns());
@@ -83,11 +104,11 @@ double Newton::linear_tolerance(const Evaluation &at, double last_norm, bool set
   // While the prescribed motion is to come, the right side is what it takes to move the supports' neighbours alone, and
   // the scale of forces is not known.
   if (at.pending_motion > 0)
-    return settled || trial ? tolerance : first_share;
+    return settled || trial ? tolerance : std::max(tolerance, softness_ * first_share);
   const double enough = tolerance * at.scale / force;
   if (settled || trial)
     return enough;
-  return std::max(enough, std::min(loosest, 0.9 * std::pow(at.norm / last_norm, 2)));
+  return std::max(enough, std::min(forcing, 0.9 * std::pow(at.norm / last_norm, 2)));
 }
 
 std::vector<double> Newton::solve_linear(const Evaluation &at, double tolerance)
@@ -100,10 +121,10 @@ std::vector<double> Newton::solve_linear(const Evaluation &at, double tolerance)
   const auto scope = timers_.measure("linear_solve");
   form_->solve(at.rhs, step, tolerance);
   const FormCounters cost = form_->counters();
-  counters_.n_pattern_builds = cost.n_pattern_builds;
-  counters_.n_factorizations = cost.n_factorizations;
-  counters_.n_preconditioner_setups = cost.n_preconditioner_setups;
-  counters_.n_linear_iterations = cost.n_iterations;
+  counters_.n_pattern_builds = earlier_.n_pattern_builds + cost.n_pattern_builds;
+  counters_.n_factorizations = earlier_.n_factorizations + cost.n_factorizations;
+  counters_.n_preconditioner_setups = earlier_.n_preconditioner_setups + cost.n_preconditioner_setups;
+  counters_.n_linear_iterations = earlier_.n_linear_iterations + cost.n_iterations;
   for (const double x : step)
     if (!std::isfinite(x))
       throw NumericalFailure("the tangent matrix is singular");
@@ -146,7 +167,7 @@ void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcom
   std::map<std::uint64_t, int> seen;
   int n_cycles = 0;
   int n_damped = 0;
-  double last_norm = now.at.norm;
+  double last_norm = now.at.norm, forcing = softness_ * loosest;
   const auto contacts = std::span(std::as_const(model_).contacts());
   bool settled = std::all_of(contacts.begin(), contacts.end(), [](const auto &c) { return c.options().tied; });
   for (int iteration = 1; now.at.norm > options.tolerance * now.at.scale || now.at.pending_motion > 0; ++iteration)
@@ -156,8 +177,8 @@ void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcom
     contacts_.remember_slip();
     restrain(now.at, now.state, start, time, iteration == 1 && !now.has_trial);
     const auto n_before = form_->counters().n_iterations;
-    const std::vector<double> increment =
-        solve_linear(now.at, linear_tolerance(now.at, last_norm, settled, !now.has_trial && model_.has_friction()));
+    const std::vector<double> increment = solve_linear(
+        now.at, linear_tolerance(now.at, last_norm, forcing, settled, !now.has_trial && model_.has_friction()));
     outcome.n_iterations = iteration;
     outcome.n_linear_iterations += static_cast<int>(form_->counters().n_iterations - n_before);
     ++counters_.n_newton_iterations;
@@ -179,6 +200,8 @@ void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcom
     report_(report);
     // While prescribed motion was to come, the residual said nothing of the forces.
     last_norm = now.at.pending_motion > 0 ? next.at.norm : now.at.norm;
+    if (now.at.pending_motion == 0 && next.at.norm > progress * now.at.norm)
+      forcing *= tightening;
     settled = model_.bodies().tangent_is_constant() && report.n_status_changes <= few_changes * report.n_active;
     now = std::move(next);
     if (n_cycles > max_cycles)
@@ -257,6 +280,7 @@ NewtonOutcome Newton::solve(State &state, double from, double to)
     catch (const NumericalFailure &failure)
     {
       outcome.cause = failure.what();
+      outcome.linear_solver_failed = dynamic_cast<const LinearSolverFailure *>(&failure) != nullptr;
     }
   }
   return outcome;

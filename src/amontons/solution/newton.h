@@ -17,6 +17,7 @@ struct NewtonOutcome
 {
   bool converged = false;
   std::string cause; ///< of failure
+  bool linear_solver_failed = false;
   int n_iterations = 0;
   int n_linear_iterations = 0;
 };
@@ -28,7 +29,9 @@ struct NewtonOutcome
 class Newton
 {
 public:
-  Newton(Model &model, Counters &counters, Timers &timers, std::function<void(const IterationReport &)> report);
+  /// @param linear see make_form() @param counters are counted on
+  Newton(Model &model, LinearSolverType linear, Counters &counters, Timers &timers,
+         std::function<void(const IterationReport &)> report);
   ~Newton();
 
   /// Moves `state` from its equilibrium at time `from` to the one at `to`. On failure `state` is left as it was.
@@ -49,7 +52,8 @@ private:
   bool detect(State &state);
   void prepare_matrix(const State &state, double time);
   [[nodiscard]] std::vector<double> solve_linear(const Evaluation &at, double tolerance);
-  [[nodiscard]] double linear_tolerance(const Evaluation &at, double last_norm, bool settled, bool trial) const;
+  [[nodiscard]] double linear_tolerance(const Evaluation &at, double last_norm, double forcing, bool settled,
+                                        bool trial) const;
   void set_trial(const State &trial, const State &start);
   [[nodiscard]] bool nothing_closed() const;
   /// The state and its evaluation from which an increment's iterations start.
@@ -69,12 +73,14 @@ private:
 
   Model &model_;
   Counters &counters_;
+  const Counters earlier_; ///< than this one
   Timers &timers_;
   std::function<void(const IterationReport &)> report_;
   std::unique_ptr<SystemForm> form_;
   ContactAssembly contacts_;
   FreeMotions free_motions_;
   Predictor predictor_;
+  double softness_;
   double reach_ = 0;
   bool tangent_assembled_ = false;
   std::vector<double> residual_;

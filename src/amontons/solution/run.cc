@@ -1,5 +1,6 @@
 #include "amontons/solution/run.h"
 
+#include "amontons/solution/form_choice.h"
 #include "amontons/solution/newton.h"
 
 #include <algorithm>
@@ -19,6 +20,22 @@ constexpr double default_min_increment = 1e-4;
 constexpr double small_strain_reach = 0.05;
 /// Part of the local size below which an overlap at the start is the mesh's chord error, not worth a warning.
 constexpr double overlap_to_tell = 1e-6;
+
+const char *name_of(LinearSolverType linear)
+{
+  switch (linear)
+  {
+  case LinearSolverType::direct:
+    return "direct";
+  case LinearSolverType::amg:
+    return "amg";
+  case LinearSolverType::feti:
+    return "feti";
+  case LinearSolverType::automatic:
+    break;
+  }
+  return "auto";
+}
 
 struct Box
 {
@@ -121,8 +138,8 @@ public:
       contact.set_augmentation(diagonal);
     detect_first(*model_, state_);
     counters_.n_detections += static_cast<std::int64_t>(model_->contacts().size());
-    newton_ = std::make_unique<Newton>(*model_, counters_, timers_,
-                                       [this](const IterationReport &r) { tell(&Observer::iteration, r); });
+    solvers_ = linear_solvers(model_->options(), model_->mesh());
+    take_next_solver();
   }
 
   RunResult solve()
@@ -150,6 +167,12 @@ public:
       if (!outcome.converged)
       {
         tell(&Observer::rejected, report, outcome.cause);
+        if (outcome.linear_solver_failed && !solvers_.empty())
+        {
+          tell(&Observer::warning, outcome.cause + "; 'linear: " + name_of(solvers_.front()) + "' takes over");
+          take_next_solver();
+          continue;
+        }
         ++cutbacks;
         step = cut_factor * (to - time);
         if (loading.fixed || step < least)
@@ -179,6 +202,13 @@ private:
     const auto scope = timers_.measure("output");
     for (Observer *observer : observers_)
       (observer->*event)(arguments...);
+  }
+
+  void take_next_solver()
+  {
+    newton_ = std::make_unique<Newton>(*model_, solvers_.front(), counters_, timers_,
+                                       [this](const IterationReport &r) { tell(&Observer::iteration, r); });
+    solvers_.erase(solvers_.begin());
   }
 
   /// Twice the largest motion expected in the increment.
@@ -228,6 +258,7 @@ private:
   Counters counters_;
   std::unique_ptr<Model> model_;
   std::unique_ptr<Newton> newton_;
+  std::vector<LinearSolverType> solvers_; ///< that may yet be taken
   State state_, start_;
   double time_ = 0;
   double last_motion_ = 0;
