@@ -1,5 +1,6 @@
 """The table of the verification: on the screen, and as docs/verification.md from the stored results."""
 import json
+import math
 import os
 
 from suite import ROOT, results
@@ -22,8 +23,9 @@ folder of a case ([verification](../verification)) says what is computed, where 
 def cells(row):
     newton = "" if row["newton_max"] is None else f"{row['newton_mean']:.1f} / {row['newton_max']}"
     order = "" if row["order"] is None else f"{row['order']:.2f}"
-    return [row["quantity"], f"{row['reference']:.8g}", f"{row['ours']:.8g}", f"{row['error']:.1e}",
-            f"{row['tolerance']:.0e}", order, newton, row["verdict"]]
+    known = math.isfinite(row["reference"])
+    return [row["quantity"], f"{row['reference']:.8g}" if known else "none", f"{row['ours']:.8g}",
+            f"{row['error']:.1e}" if known else "", f"{row['tolerance']:.0e}", order, newton, row["verdict"]]
 
 
 def reasons(result):

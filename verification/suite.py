@@ -39,7 +39,7 @@ class Row:
     """One figure held against its reference.
 
     error = |ours - reference| / scale; scale is |reference|, or 1 where that is zero. Judged against `tolerance`; a row that
-    misses it is `short` where the case states the `reason`, else it fails. `runs`: the runs it stands on, for their
+    misses it is `short` where the case states the `reason`, else it fails; a reference that is not known is nan. `runs`: the runs it stands on, for their
     Newton iterations. `order`: of convergence with the cells' size, from `errors_by_size`.
     """
     quantity: str

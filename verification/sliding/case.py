@@ -114,6 +114,13 @@ def ironing(bench):
     return Row("shallow ironing: Fx/Fy at t = 1.5, middle of what is published", 0.415, abs(fx / fy), 0.115 / 0.415, runs=[run])
 
 
+def blocks(bench):
+    """Once all of the interface slides, the forces are in Coulomb's ratio, up to the tilt of the surface."""
+    run = bench.run("examples/blocks-3d/blocks-3d.yaml")
+    tangential, normal = (math.hypot(*run.contact()[force]) for force in ("tangential_force", "normal_force"))
+    return Row("sliding blocks in space: friction over normal force at the end", 0.3, tangential / normal, 5e-3, runs=[run])
+
+
 def verify(bench):
     meshes = bench.choose([(24, 9)], [(24, 9), (48, 18)], [(24, 9), (48, 18), (96, 36)])
     steps = bench.choose(60, 150, 300)
@@ -133,4 +140,4 @@ def verify(bench):
             mean = sum(force for _, force, *_ in history) / len(history)
             plot.add(label, [(math.degrees(TRAVEL) * (t - 1), force / mean) for t, force, *_ in history])
     bench.plot("force", plot)
-    return rows + ([ironing(bench)] if bench.level == "fine" else [])
+    return rows + [example(bench) for example in bench.choose([], [blocks], [blocks, ironing])]

@@ -1,0 +1,124 @@
+"""Neo-Hookean bodies in contact at large strain, against the same law solved by other means: by hand or as an ordinary equation.
+
+W = G/2 (J^(-2/3) I1 - 3) + K/2 ((J^2 - 1)/2 - ln J), so the principal first Piola-Kirchhoff stress along a stretch l is
+P = G J^(-2/3) (l - I1/(3 l)) + K/2 (J^2 - 1)/l.
+"""
+import math
+
+import mesh
+from suite import Row, order
+from svg import Plot
+
+TITLE = "Finite strain"
+
+
+class NeoHooke:
+    def __init__(self, young, poisson):
+        self.shear, self.bulk = young / (2 * (1 + poisson)), young / (3 * (1 - 2 * poisson))
+
+    def stress(self, along, *others):
+        """First Piola-Kirchhoff stress along the first of three principal stretches."""
+        volume = along * others[0] * others[1]
+        squares = along**2 + others[0] ** 2 + others[1] ** 2
+        return (self.shear * volume ** (-2 / 3) * (along - squares / (3 * along))
+                + self.bulk / 2 * (volume**2 - 1) / along)
+
+
+def root(function, low, high):
+    """Zero of a function that grows, by bisection."""
+    for _ in range(200):
+        middle = (low + high) / 2
+        low, high = (middle, high) if function(middle) < 0 else (low, middle)
+    return (low + high) / 2
+
+
+def compressed(law, stretch, dimension):
+    """Stretch across and nominal pressure of a bar with free sides, in plane strain or space, shortened to `stretch`."""
+    def others(across):
+        return (across, 1.0) if dimension == 2 else (across, across)
+
+    across = root(lambda a: law.stress(a, stretch, others(a)[1]), 0.5, 3)
+    return across, -law.stress(stretch, *others(across))
+
+
+def bar_rows(bench):
+    """Two blocks between frictionless rigid planes, shortened to 60 %: a uniform state."""
+    law, rows = NeoHooke(1.0, 0.3), []
+    for dimension, deck in ((2, "bar-plane.yaml"), (3, "bar-space.yaml")):
+        made, side = mesh.Mesh(dimension), mesh.spaced(0, 1, 3)
+        made.add("lower", *[side] * (dimension - 1), mesh.spaced(0, 1, 3)).add("upper", *[side] * (dimension - 1), mesh.spaced(1, 2, 3))
+        run = bench.run(deck, {"mesh.file": made.write(bench.path(f"bar-{dimension}.msh"))})
+        across, pressure = compressed(law, 0.6, dimension)
+        nodes, corner = run.nodes(), max(run.nodes(), key=lambda node: node["x"] + node["y"])
+        rows += [Row(f"{('plane strain', 'space')[dimension - 2]}, shortened to 60 %: worst pressure, over the reference area", pressure,
+                     max((node["pressure"] for node in nodes), key=lambda p: abs(p - pressure)), 1e-8, runs=[run]),
+                 Row(f"{('plane strain', 'space')[dimension - 2]}, shortened to 60 %: stretch across", across, 1 + corner["ux"], 1e-8)]
+    return rows
+
+
+INNER, MIDDLE, OUTER, INWARD = 1.0, 2.0, 3.0, 0.6  # reference radii of two tubes, displacement of the outside
+STEPS = 20  # of Runge and Kutta's method in each tube, of fourth order: far beyond the digits held against
+TUBES = (NeoHooke(1.0, 0.3), NeoHooke(2.0, 0.2))
+
+
+def tubes(bore):
+    """Place of the outside, of the fit, and the stress P_rR there, if the bore has the radius `bore`.
+
+    Equilibrium d(P_rR)/dR = (P_tT - P_rR)/R in plane strain with r(R), stretches r', r/R, 1; by Runge and Kutta's method.
+    """
+    def radial(law, radius, place, stress):
+        return root(lambda stretch: law.stress(stretch, place / radius, 1.0) - stress, 0.05, 5)
+
+    def slope(law, radius, place, stress):
+        stretch = radial(law, radius, place, stress)
+        return stretch, (law.stress(place / radius, stretch, 1.0) - stress) / radius
+
+    radius, place, stress, fit = INNER, bore, 0.0, None
+    for law, end in zip(TUBES, (MIDDLE, OUTER)):
+        h = (end - radius) / STEPS
+        for _ in range(STEPS):
+            a = slope(law, radius, place, stress)
+            b = slope(law, radius + h / 2, place + h / 2 * a[0], stress + h / 2 * a[1])
+            c = slope(law, radius + h / 2, place + h / 2 * b[0], stress + h / 2 * b[1])
+            d = slope(law, radius + h, place + h * c[0], stress + h * c[1])
+            place += h / 6 * (a[0] + 2 * b[0] + 2 * c[0] + d[0])
+            stress += h / 6 * (a[1] + 2 * b[1] + 2 * c[1] + d[1])
+            radius += h
+        fit = fit or (place, stress)
+    return place, fit
+
+
+def tube_rows(bench):
+    """Two tubes of unlike materials one in the other, the outside pressed in by 20 %."""
+    bore = root(lambda b: tubes(b)[0] - (OUTER - INWARD), 0.1, INNER)
+    place, stress = tubes(bore)[1]
+    rows, sizes, errors = [], bench.choose([4, 8], [8, 16], [16, 32]), []
+    for n in sizes:
+        made = mesh.Mesh(2)
+        made.add("inner", mesh.spaced(INNER, MIDDLE, n), mesh.spaced(0, 0.5, 2)).add("outer", mesh.spaced(MIDDLE, OUTER, n), mesh.spaced(0, 0.5, 2))
+        run = bench.run("tubes.yaml", {"mesh.file": made.write(bench.path(f"tubes-{n}.msh")), "boundary.1.displacement.x": f"-{INWARD}*t"})
+        pressures = [node["pressure"] for node in run.nodes()]
+        errors.append((max(pressures, key=lambda p: abs(p + stress)), run.nodes()[0]["ux"]))
+    found = [order(*(abs(error[k] - exact) for error in errors[-2:])) for k, exact in ((0, -stress), (1, place - MIDDLE))]
+    rows.append(Row(f"tubes pressed in by 20 %, n {n}: worst pressure, over the reference area", -stress, errors[-1][0],
+                    bench.choose(1e-2, 2e-3), order=found[0], runs=[run]))
+    rows.append(Row(f"tubes pressed in by 20 %, n {n}: displacement of the fit", place - MIDDLE, errors[-1][1], bench.choose(1e-2, 2e-3),
+                    order=found[1]))
+    return rows
+
+
+def block_rows(bench):
+    """A block pressed by a rigid cylinder to 60 % of its height: computed, and nothing to hold it against."""
+    n = bench.choose(10, 20, 40)
+    made = mesh.Mesh(2)
+    made.add("block", mesh.spaced(0, 2, 2 * n), mesh.spaced(-1, 0, n))
+    run = bench.run("block.yaml", {"mesh.file": made.write(bench.path("block.msh"))})
+    forces = [(step["time"], -2 * step["contacts"][0]["normal_force"][1]) for step in run.increments]
+    bench.plot("block", Plot("Neo-Hookean block under a rigid cylinder", "pressed in / height", "force / (E radius)")
+               .add(f"n {n}", [(0.4 * t, force) for t, force in forces], "line points"))
+    return [Row(f"block under a rigid cylinder, 40 %, n {n}: force / (E radius)", math.nan, forces[-1][1], 1e-2, runs=[run],
+                reason="no published figure known here with its material law, units and source surely enough to be cited")]
+
+
+def verify(bench):
+    return bar_rows(bench) + tube_rows(bench) + block_rows(bench)
