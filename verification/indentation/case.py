@@ -79,6 +79,8 @@ def verify(bench):
     for (x, mean), run in zip(points, plastic):
         if x > 40:  # fully plastic: 2.8 to 3
             rows.append(Row(f"plateau: p_m / yield at E* a/(R yield) = {x:.1f}, n {n}", 2.9, mean, 0.1 / 2.9, runs=[run]))
+        else:
+            rows.append(Row(f"expanding cavity, a model: p_m / yield at {x:.1f}, n {n}", cavity(x, POISSON), mean, 0.1, runs=[run]))
     bench.plot("pressure", Plot(f"Sphere on a plastic half-space: mean pressure, n {n}", "E* a / (R yield)", "p_m / yield", log_x=True)
                .add("computed", points, "line points")
                .add("Hertz", [(x, 4 * x / (3 * math.pi)) for x in (1, 2, 4, 6)], "dashed")
