@@ -1,7 +1,6 @@
 // On any number of processes. Every expectation holds on each of them.
 #include "detection/scene.h"
-#include "shares.h"
-#include "surface/surfaces.h"
+#include "expect.h"
 
 #include <map>
 

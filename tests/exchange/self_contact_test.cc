@@ -1,7 +1,7 @@
 // On any number of processes. Every expectation holds on each of them.
 #include "detection/scene.h"
 #include "detection/self_contact_checks.h"
-#include "shares.h"
+#include "expect.h"
 
 namespace amontons::test
 {
@@ -80,6 +80,22 @@ TEST_F(SelfContactOfMany, AsOnOneInSpace)
       detection.distance.reset();
       follow(surface, ways, detection, {}, ExchangeMode::gathered, Spread::random);
     }
+}
+
+// The way along the surface that decides what a node does not see runs far out of what is near now.
+TEST_F(SelfContactOfMany, SelfDistanceManyTimesTheDistance)
+{
+  const Strip strip{240, 2};
+  const Surface surface = outlines_surface({strip.outline(flat(4, 0.1))});
+  const std::vector<double> folded = self_contact::flattened({strip.outline(folded_strip(2, 2, 0.06, 0.1))});
+  DetectionOptions detection;
+  detection.distance = 0.04;
+  std::vector<Index> n;
+  for (const double self_distance : {0.3, 1.5})
+    for (const ExchangeMode mode : {ExchangeMode::distributed, ExchangeMode::gathered})
+      n.push_back(follow(surface, {folded}, detection, self_distance, mode, Spread::random));
+  EXPECT_GT(n[2], 0);
+  EXPECT_GT(n[0], n[2] + 10);
 }
 
 // Two bodies in one surface; the upper one slides along the lower, off it and back, and roles are kept.

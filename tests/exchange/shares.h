@@ -1,11 +1,11 @@
 #pragma once
 #include "amontons/detection/detector.h"
 #include "amontons/exchange/parallel_detector.h"
-
-#include <gtest/gtest.h>
+#include "surface/surfaces.h"
 
 #include <functional>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace amontons::test
@@ -71,6 +71,7 @@ inline Piece piece_of(const Surface &whole, const Choice &own_node, const Choice
 enum class Spread
 {
   random,   ///< each node and face on any process
+  in_runs,  ///< a run of the numbering on each process
   apart,    ///< impactor and target never on the same process
   some_bare ///< the last process has nothing, the others a run of the numbering each
 };
@@ -93,8 +94,9 @@ public:
     std::uniform_int_distribution<Rank> any(first, last);
     std::vector<Rank> owner;
     for (Index k = 0; k < n; ++k)
-      owner.push_back(spread_ == Spread::some_bare ? static_cast<Rank>(std::int64_t{k} * (n_processes_ - 1) / n)
-                                                   : any(random_));
+      owner.push_back(spread_ == Spread::in_runs     ? static_cast<Rank>(std::int64_t{k} * n_processes_ / n)
+                      : spread_ == Spread::some_bare ? static_cast<Rank>(std::int64_t{k} * (n_processes_ - 1) / n)
+                                                     : any(random_));
     return owner;
   }
 
@@ -114,36 +116,55 @@ inline Piece dealt(const Surface &whole, const Communicator &world, Spread sprea
       whole, [&](Index node) { return node_owner[node] == rank; }, [&](Index f) { return face_owner[f] == rank; });
 }
 
-/// That the own nodes of a process have met what one process's detector has found for them.
-inline void expect_as_on_one(const Surface &target, const std::vector<double> &target_x, const Pairing &expected,
-                             const Piece &impactor, const MetPairing &met)
+inline bool is_same(const Pair &a, const Pair &b)
 {
-  ASSERT_EQ(met.pairs.size(), static_cast<std::size_t>(impactor.n_own));
+  return a.kind == b.kind && a.reason == b.reason && (a.face >= 0) == (b.face >= 0) && a.xi == b.xi && a.gap == b.gap &&
+         a.distance == b.distance;
+}
+
+/// Id, ids of the nodes and their places.
+inline bool is_same_face(const MetPairing &met, Index own, const Surface &target, const std::vector<double> &target_x,
+                         Index one)
+{
+  const auto corners = met.target.face(own), real = target.face(one);
+  bool same = met.target.face_ids[own] == target.face_ids[one] && corners.size() == real.size();
+  for (std::size_t k = 0; same && k < corners.size(); ++k)
+  {
+    same = met.target.node_ids[corners[k]] == target.node_ids[real[k]];
+    for (int c = 0; c < target.dim; ++c)
+      same = same && met.target_x[static_cast<std::size_t>(corners[k]) * target.dim + c] ==
+                         target_x[static_cast<std::size_t>(real[k]) * target.dim + c];
+  }
+  return same;
+}
+
+/// Own nodes of a process that have not met what one process's detector has found for them, to the last bit.
+/// @param first set to what is wrong with the first of them
+inline int count_wrong(const Surface &target, const std::vector<double> &target_x, const Pairing &expected,
+                       const Piece &impactor, const MetPairing &met, std::string &first)
+{
   int n_wrong = 0;
   for (Index node = 0; node < impactor.n_own; ++node)
   {
-    const Pair &own = met.pairs[node], &one = expected[impactor.nodes[node]];
-    bool same = own.kind == one.kind && own.reason == one.reason && (own.face >= 0) == (one.face >= 0);
-    if (same && own.face >= 0)
-    {
-      same = met.target.face_ids[own.face] == target.face_ids[one.face] && own.xi == one.xi && own.gap == one.gap &&
-             own.distance == one.distance;
-      const auto corners = met.target.face(own.face), real = target.face(one.face);
-      same = same && corners.size() == real.size();
-      for (std::size_t k = 0; same && k < corners.size(); ++k)
-      {
-        same = met.target.node_ids[corners[k]] == target.node_ids[real[k]];
-        for (int c = 0; c < target.dim; ++c)
-          same = same && met.target_x[static_cast<std::size_t>(corners[k]) * target.dim + c] ==
-                             target_x[static_cast<std::size_t>(real[k]) * target.dim + c];
-      }
-    }
-    n_wrong += same ? 0 : 1;
-    if (!same && n_wrong == 1)
-      ADD_FAILURE() << "node " << impactor.surface.node_ids[node] << ": kind " << int(own.kind) << " for "
-                    << int(one.kind) << ", reason " << int(own.reason) << " for " << int(one.reason) << ", gap "
-                    << own.gap << " for " << one.gap << ", distance " << own.distance << " for " << one.distance;
+    const Pair &own = met.pairs.at(node), &one = expected[impactor.nodes[node]];
+    if (is_same(own, one) && (own.face < 0 || is_same_face(met, own.face, target, target_x, one.face)))
+      continue;
+    if (++n_wrong == 1)
+      first = "node " + std::to_string(impactor.surface.node_ids[node]) + ": kind " + std::to_string(int(own.kind)) +
+              " for " + std::to_string(int(one.kind)) + ", reason " + std::to_string(int(own.reason)) + " for " +
+              std::to_string(int(one.reason)) + ", gap " + std::to_string(own.gap) + " for " + std::to_string(one.gap);
   }
-  EXPECT_EQ(n_wrong, 0);
+  return n_wrong;
+}
+
+/// 90 % of the nodes in a corner that takes a hundredth of the sheet, n by n faces.
+inline Surface crowded_corner(int n, double height)
+{
+  const auto crowded = [](double s)
+  {
+    const double most = std::sqrt(0.9);
+    return s < most ? 0.1 * s / most : 0.1 + 0.9 * (s - most) / (1 - most);
+  };
+  return sheet(n, n, false, [&](double s, double t) { return Point{crowded(s), crowded(t), height}; });
 }
 } // namespace amontons::test

@@ -1,8 +1,7 @@
 // What each process holds, and what is wrong with what it gives. On any number of processes.
 #include "amontons/base/error.h"
 #include "detection/scene.h"
-#include "shares.h"
-#include "surface/surfaces.h"
+#include "expect.h"
 
 #include <gmock/gmock.h>
 
@@ -32,17 +31,6 @@ protected:
 
   Communicator world_{MPI_COMM_WORLD};
 };
-
-// 90 % of the nodes in a corner that takes a hundredth of the sheet.
-Surface crowded_corner(int n, double height)
-{
-  const auto crowded = [](double s)
-  {
-    const double most = std::sqrt(0.9);
-    return s < most ? 0.1 * s / most : 0.1 + 0.9 * (s - most) / (1 - most);
-  };
-  return sheet(n, n, false, [&](double s, double t) { return Point{crowded(s), crowded(t), height}; });
-}
 
 TEST_F(Shares, WorkIsEvenOnACrowdedCorner)
 {

@@ -22,18 +22,11 @@ constexpr double same_way = 0.5;
 // Depth below which a node lies on the surface, in units of w.
 constexpr double on_surface = 1e-9;
 
-const char *name_of(DetectionMethod method)
+Pair no_pair(NoPairReason reason)
 {
-  switch (method)
-  {
-  case DetectionMethod::exact:
-    return "exact";
-  case DetectionMethod::nearest_node:
-    return "nearest-node";
-  case DetectionMethod::brute:
-    return "brute";
-  }
-  return "";
+  Pair none;
+  none.reason = reason;
+  return none;
 }
 
 std::unique_ptr<Search> make_search(DetectionMethod method, int dim)
@@ -154,8 +147,7 @@ void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span
       nodes_.push_back(node);
     else
     {
-      pairing_[node] = Pair{};
-      pairing_[node].reason = NoPairReason::outside_box;
+      pairing_[node] = no_pair(NoPairReason::outside_box);
       candidates_[node].face = -1;
     }
   }
@@ -249,11 +241,7 @@ Pair SurfaceDetector::pair_of(Index node)
 {
   const Candidate &closest = candidates_[node];
   if (closest.face < 0)
-  {
-    Pair none;
-    none.reason = NoPairReason::too_far;
-    return none;
-  }
+    return no_pair(NoPairReason::too_far);
   const Vector3d x = point_of(query_.x, impactor_.dim, node);
   const Feature feature = look_at(target_, closest, x, false, {query_.exclusions, node});
   // Of all faces the closest point is a minimum; of those that are not hidden it may lie on the rim of the hidden.
@@ -301,9 +289,7 @@ Pair SurfaceDetector::best_of_considered(Index node, const Vector3d &x, NoPairRe
     if (verdict == Verdict::taken && (feature.inside || reason != NoPairReason::behind))
       return feature.pair;
   }
-  Pair none;
-  none.reason = reason;
-  return none;
+  return no_pair(reason);
 }
 
 void SurfaceDetector::summarise()

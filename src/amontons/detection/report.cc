@@ -2,6 +2,20 @@
 
 namespace amontons
 {
+const char *name_of(DetectionMethod method)
+{
+  switch (method)
+  {
+  case DetectionMethod::exact:
+    return "exact";
+  case DetectionMethod::nearest_node:
+    return "nearest-node";
+  case DetectionMethod::brute:
+    return "brute";
+  }
+  return "";
+}
+
 void count_pairs(const Pairing &pairing, bool self_contact, DetectionReport &report)
 {
   constexpr std::array<const char *, 5> kinds{"none", "face", "edge", "vertex", "extension"};

@@ -1,5 +1,6 @@
 #pragma once
 #include "amontons/base/ids.h"
+#include "amontons/detection/options.h"
 #include "amontons/surface/pairing.h"
 
 #include <array>
@@ -33,6 +34,9 @@ struct DetectionReport
   std::optional<SelfContactReport> self_contact;
   std::map<std::string, double> seconds; ///< per step: "bounds", "fill", "nearest", "projection"
 };
+
+/// As in the deck.
+const char *name_of(DetectionMethod method);
 
 /// Counts the pairs by kind, the nodes without one by reason, and the penetrations.
 /// @param self_contact whether nodes may be without a pair because their side is the target
