@@ -24,8 +24,10 @@ SOLVERS = {"coupled, direct": ("coupled", "direct"), "condensed, direct": ("cond
 SMALL_STRAIN = {
     "patch-tests/plane-matching": [],
     "patch-tests/plane-non-matching": [],
+    "patch-tests/plane-mortar": [],
     "patch-tests/space-matching": [],
     "patch-tests/space-non-matching": [],
+    "patch-tests/space-mortar": [],
     "press-fit/press-fit": ["mesh.parameters.n_inner=48", "mesh.parameters.n_outer=36"],
     "press-fit/interference": ["mesh.parameters.n_inner=32", "mesh.parameters.n_outer=32"],
     "hertz-cylinder/hertz-cylinder": ["mesh.parameters.n_cylinder=16", "mesh.parameters.n_block=8"],
