@@ -35,6 +35,17 @@ Problem blocks_in_contact(int dim, Strain strain, double mu)
   return problem;
 }
 
+/// The same, surface to surface; `swapped`: the impactor is the larger one, its faces covered in part.
+Problem blocks_in_mortar_contact(int dim, double mu, bool swapped)
+{
+  Problem problem = blocks_in_contact(dim, Strain::small, mu);
+  ContactOptions &contact = problem.options.contact[0];
+  contact.discretization = Discretization::mortar;
+  if (swapped)
+    std::swap(contact.impactor, contact.target);
+  return problem;
+}
+
 /// Held by contact alone at first, so motions are held in the mean; under force, with friction.
 Problem block_on_ground(Kinematics kinematics, double mu)
 {
@@ -149,6 +160,17 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"solid_finite", [] { return blocks_in_contact(3, Strain::finite, 0.2); }},
                     Case{"held_motions", [] { return block_on_ground(Kinematics::plane_stress, 0); }},
                     Case{"axisymmetric", [] { return block_on_ground(Kinematics::axisymmetric, 0.2); }},
+                    Case{"plane_mortar", [] { return blocks_in_mortar_contact(2, 0.3, false); }},
+                    Case{"plane_mortar_swapped", [] { return blocks_in_mortar_contact(2, 0, true); }},
+                    Case{"solid_mortar", [] { return blocks_in_mortar_contact(3, 0.3, false); }},
+                    Case{"solid_mortar_swapped", [] { return blocks_in_mortar_contact(3, 0.3, true); }},
+                    Case{"rigid_impactor_mortar",
+                         []
+                         {
+                           Problem problem = rigid_impactor();
+                           problem.options.contact[0].discretization = Discretization::mortar;
+                           return problem;
+                         }},
                     Case{"groove", block_in_groove}, Case{"rigid_impactor", rigid_impactor},
                     Case{"plates", stack_of_plates}),
     [](const auto &info) { return info.param.name; });
