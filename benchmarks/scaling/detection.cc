@@ -16,7 +16,8 @@ using nlohmann::json;
 
 constexpr const char *usage =
     "usage: mpirun -n N bench_scaling --surface NAME|crowded|all --shape segments|triangles|quadrilaterals --nodes N\n"
-    "         [--mode distributed|gathered|both] [--spread random|in-runs|apart|some-bare] [--steps 3]\n";
+    "         [--mode distributed|gathered|both] [--spread random|in-runs|apart|some-bare] [--steps 3]\n"
+    "         [--distance w, of itself where it is not given]\n";
 
 using Arguments = std::map<std::string, std::string>;
 
@@ -105,9 +106,12 @@ json measure(const benchmark::Scene &scene, const std::string &mode, const Argum
       choice<ExchangeMode>(mode, {{"distributed", ExchangeMode::distributed}, {"gathered", ExchangeMode::gathered}})};
   const test::Piece impactor = test::dealt(scene.impactor, world, spread, false);
   const test::Piece target = test::dealt(scene.target, world, spread, true);
+  DetectionOptions detection;
+  if (arguments.contains("distance"))
+    detection.distance = std::stod(arguments.at("distance"));
   const auto parallel =
-      make_parallel_detector(world, options, {{&impactor.surface, impactor.n_own, &target.surface, {}, {}}});
-  const auto one = make_detector({}, scene.impactor, scene.target);
+      make_parallel_detector(world, options, {{&impactor.surface, impactor.n_own, &target.surface, detection, {}}});
+  const auto one = make_detector(detection, scene.impactor, scene.target);
   json detections = json::array();
   for (int step = 0; step < std::stoi(arguments.at("steps")); ++step)
   {
@@ -118,15 +122,20 @@ json measure(const benchmark::Scene &scene, const std::string &mode, const Argum
     int n_wrong = test::count_wrong(scene.target, x.target, one->detect(x.impactor, x.target, scene.reach), impactor,
                                     met.at(0), first);
     MPI_Allreduce(MPI_IN_PLACE, &n_wrong, 1, MPI_INT, MPI_SUM, world.mpi());
-    json detection = over_processes(figures(parallel->report()), world);
-    detection["wrong"] = n_wrong;
-    detection["routes kept"] = parallel->report().kept_routes;
-    detections.push_back(detection);
+    json found = over_processes(figures(parallel->report()), world);
+    found["wrong"] = n_wrong;
+    found["routes kept"] = parallel->report().kept_routes;
+    detections.push_back(found);
   }
-  return {{"surface", scene.surface},           {"shape", scene.shape},
-          {"processes", world.size()},          {"mode", mode},
-          {"spread", arguments.at("spread")},   {"n_impactor", scene.impactor.n_nodes()},
-          {"n_target", scene.target.n_nodes()}, {"detections", detections}};
+  return {{"surface", scene.surface},
+          {"shape", scene.shape},
+          {"processes", world.size()},
+          {"mode", mode},
+          {"distance", arguments.contains("distance") ? "given" : "auto"},
+          {"spread", arguments.at("spread")},
+          {"n_impactor", scene.impactor.n_nodes()},
+          {"n_target", scene.target.n_nodes()},
+          {"detections", detections}};
 }
 
 json run(const Arguments &arguments, const Communicator &world)

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Runs the benchmark of detection over many processes and writes one list of all results.   run.py PROGRAM [--quick] --json FILE
+"""Runs the benchmark of detection over many processes, writes one list of all results.   run.py PROGRAM [--quick] --json FILE
 
 Beyond the cores processes share them: work, messages and bytes are counted there, not seconds."""
 import argparse
 import json
+import math
 import os
 import subprocess
 import time
@@ -31,15 +32,18 @@ def what_falls(quick):
             yield n_processes, "wavy", "quadrilaterals", n_nodes, "both", spread
         for surface in ("torus", "graded-500", "crowded"):
             yield n_processes, surface, "quadrilaterals", n_nodes, "distributed", "in-runs"
+        # Five of the fine faces.
+        yield n_processes, "crowded", "quadrilaterals", n_nodes, "distributed", "in-runs", 0.5 / math.sqrt(n_nodes)
         yield n_processes, "wavy", "quadrilaterals", n_nodes * n_processes / 16, "distributed", "in-runs"
 
 
-def measure(program, n_processes, surface, shape, n_nodes, mode, spread):
-    output = subprocess.run(
-        ["mpirun", "--oversubscribe", "-n", str(n_processes), program, "--surface", surface, "--shape", shape, "--nodes",
-         str(n_nodes), "--mode", mode, "--spread", spread], check=True, stdout=subprocess.PIPE, text=True,
-        env={**os.environ, **ENVIRONMENT}).stdout
-    return json.loads(output)
+def measure(program, n_processes, surface, shape, n_nodes, mode, spread, distance=None):
+    command = ["mpirun", "--oversubscribe", "-n", str(n_processes), program, "--surface", surface, "--shape", shape,
+               "--nodes", str(n_nodes), "--mode", mode, "--spread", spread]
+    if distance:
+        command += ["--distance", str(distance)]
+    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True,
+                                     env={**os.environ, **ENVIRONMENT}).stdout)
 
 
 def main():
