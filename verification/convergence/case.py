@@ -105,7 +105,7 @@ def deck(bench, n_lower, n_upper, chosen):
 
 
 # Norm: order of bilinear cells for a smooth solution, on meshes that match and that do not; how far off it may be.
-NORMS = [("displacement, L2", 2, 2, 0.1), ("energy", 1, 1, 0.1), ("pressure, L2", 2, 1.5, 0.2)]
+NORMS = [("displacement, L2", 2, 2, 0.1), ("energy", 1, 1, 0.1), ("pressure, L2", 2, 1, 0.4)]
 
 
 def verify(bench):

@@ -26,7 +26,7 @@ class NeoHooke:
 
 def root(function, low, high):
     """Zero of a function that grows, by bisection."""
-    for _ in range(200):
+    for _ in range(60):
         middle = (low + high) / 2
         low, high = (middle, high) if function(middle) < 0 else (low, middle)
     return (low + high) / 2

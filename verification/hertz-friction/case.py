@@ -48,7 +48,7 @@ def verify(bench):
         values = [value for _, value in found]
         rows += [Row(f"c/a at the end, nu {nu}, mu {mu}, n {n}", exact, values[-1], bench.choose(3e-2, 1e-2), runs=[run]),
                  Row(f"c/a, greatest less least from t = 0.5 on, nu {nu}, mu {mu}, n {n}", 0, max(values) - min(values),
-                     bench.choose(3e-2, 1e-2), scale=exact)]
+                     bench.choose(3e-2, 2e-2), scale=exact)]
         plot.add(f"nu {nu}, mu {mu}", found, "line points")
         plot.add(f"flat punch (Spence), nu {nu}, mu {mu}", [(0.5, exact), (1, exact)], "dashed")
     bench.plot("history", plot)
