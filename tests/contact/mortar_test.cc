@@ -246,6 +246,41 @@ TEST(Mortar, CurvedSurfaces)
   }
 }
 
+TEST(Mortar, CurvedSurfacesInSpace)
+{
+  const auto ball = [](double radius)
+  {
+    return [=](double s, double t)
+    {
+      const double polar = 1.1 + 0.9 * t, azimuth = 0.2 + 0.8 * s;
+      return Point{radius * std::sin(polar) * std::cos(azimuth), radius * std::sin(polar) * std::sin(azimuth),
+                   -radius * std::cos(polar)};
+    };
+  };
+  const auto turned = [](const auto &map) { return [=](double s, double t) { return map(t, s); }; };
+  for (const bool triangles : {false, true})
+  {
+    const Surface inner = sheet(14, 15, triangles, ball(1)), outer = sheet(17, 11, triangles, turned(ball(1.02)));
+    const MortarCoupling mortar = couple(inner, outer, false, 0.1);
+    EXPECT_EQ(mortar.doubled_face, -1);
+    for (Index j = 0; j < inner.n_nodes(); ++j)
+    {
+      if (j % 15 == 0 || j % 15 == 14 || j < 15 || j >= 15 * 15) // on the rim
+        continue;
+      ASSERT_TRUE(mortar.sees_target(j));
+      EXPECT_LT((mortar.normal[j] + place(inner, j)).norm(), 2e-3);
+      double gap = mortar.normal[j].dot(place(inner, j)), sum = 0;
+      for (std::size_t k = 0; k < mortar.targets_of(j).size(); ++k)
+      {
+        gap -= mortar.weights_of(j)[k] * mortar.normal[j].dot(place(outer, mortar.targets_of(j)[k]));
+        sum += mortar.weights_of(j)[k];
+      }
+      EXPECT_NEAR(sum, 1, 1e-12);
+      EXPECT_NEAR(gap, 0.02, 2e-3);
+    }
+  }
+}
+
 TEST(Mortar, TwoLayersAreTold)
 {
   const Surface impactor = curve(4, [](double s) { return std::array{s, 0.0}; });

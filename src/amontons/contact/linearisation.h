@@ -18,7 +18,8 @@ using ContactMatrix = Eigen::MatrixXd;
 /// Dofs are ordered node by node: the impactor node, then the nodes of the face (an analytic shape: one node, the
 /// shape's point), `dim` components each; so the size is dim * n_nodes.
 /// Frame: n the target's outward normal, e_1 (and e_2 in 3D) orthonormal tangents with e_1 along the face's first local
-/// direction, e_2 = n x e_1. In the plane e_1 = (x_3 - x_2)/|x_3 - x_2|.
+/// direction, e_2 = n x e_1. In the plane e_1 = (x_3 - x_2)/|x_3 - x_2|. With mortar e_1 is
+/// made from an axis of coordinates, as on a plane shape.
 struct ContactLinearisation
 {
   int dim = 2;

@@ -25,8 +25,9 @@ struct DetectionReport
   double distance = 0;      ///< w used
   Index distance_face = -1; ///< face whose size set w; -1 where the user gave it
   Index n_pairs = 0;
-  std::map<std::string, Index> pairs_by_kind;      ///< "face", "edge", "vertex", "extension"
-  std::map<std::string, Index> unpaired_by_reason; ///< "outside_box", "too_far", "behind", "past_end", "target_side"
+  std::map<std::string, Index> pairs_by_kind; ///< "face", "edge", "vertex", "extension"; or "mortar"
+  std::map<std::string, Index>
+      unpaired_by_reason; ///< "outside_box", "too_far", "behind", "past_end", "target_side"; mortar: "uncovered"
   Index n_penetrations = 0;
   double deepest = 0;      ///< least gap, <= 0
   Index deepest_node = -1; ///< local index on the impactor surface

@@ -7,6 +7,12 @@
 
 namespace amontons
 {
+namespace
+{
+/// Of the detection distance: means over faces that touch are no overlaps.
+constexpr double round_off = 1e-12;
+} // namespace
+
 void ContactInterface::require_meshed_sides() const
 {
   const std::string contact = "contact '" + options_.name + "': 'discretization: mortar' ";
@@ -56,7 +62,9 @@ void ContactInterface::report_mortar(double w)
       continue;
     ++report.n_pairs;
     const double gap = linearise_with_origin(i, still, still).gap;
-    report.n_penetrations += gap < 0;
+    if (gap > -round_off * w)
+      continue;
+    ++report.n_penetrations;
     if (gap >= report.deepest)
       continue;
     report.deepest = gap;

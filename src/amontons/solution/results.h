@@ -17,13 +17,13 @@ struct ContactResult
   std::string name;
   const Surface *impactor = nullptr; ///< node_ids are node indices of the mesh
   int dim = 2;
-  std::vector<double> gap;      ///< [n], length; infinity for a node without a pair
+  std::vector<double> gap;      ///< [n], length; infinity for a node without a pair; mortar: the mean at the node
   std::vector<double> pressure; ///< [n], compression positive; -lambda_n / area
-  std::vector<double> traction; ///< [n * (dim-1)], on the impactor, along e_1, e_2 of the target face
+  std::vector<double> traction; ///< [n * (dim-1)], on the impactor, along e_1, e_2 (contact/linearisation.h)
   std::vector<double> slip;     ///< [n * (dim-1)], summed over the increments since the node closed, same axes
   std::vector<ContactStatus> status;
   std::vector<double> force; ///< [n * dim], on the impactor node; axisymmetry: over the whole ring
-  std::vector<double> area;  ///< [n], tributary, reference
+  std::vector<double> area;  ///< [n], tributary, reference; mortar: of it what sees the target, if anything does
   // sums and extremes of the above
   int n_active = 0, n_stick = 0, n_slip = 0;
   std::array<double, 3> normal_force{0, 0, 0};     ///< vector, on the impactor
