@@ -67,7 +67,7 @@ def store(result, plots):
 def section(result):
     lines = [f"## {result['title']}", "",
              f"[verification/{result['case']}](../verification/{result['case']}); level {result['level']}: {cost(result)}.", "",
-             f"| {' | '.join(HEAD)} |", "| " + "--- | " * len(HEAD)]
+             f"| {' | '.join(HEAD)} |", "|" + " --- |" * len(HEAD)]
     lines += [f"| {' | '.join(cells(row))} |" for row in result["rows"]]
     lines.append("")
     for reason, quantities in reasons(result).items():

@@ -63,14 +63,14 @@ class Plot:
         points = [point for _, of_series, _ in self.series for point in of_series]
         x_axis = Axis([x for x, _ in points], self.log_x, LEFT, WIDTH - RIGHT)
         y_axis = Axis([y for _, y in points], self.log_y, HEIGHT - BOTTOM, TOP)
-        places = [(x_axis.place(x), y_axis.place(y)) for x, y in points if x_axis.shows(x) and y_axis.shows(y)]
-        parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" '
-                 'font-size="12">', f'<rect width="{WIDTH}" height="{HEIGHT}" fill="#ffffff"/>',
+        legend, height = self._legend()
+        parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" font-family="sans-serif" '
+                 'font-size="12">', f'<rect width="{WIDTH}" height="{height}" fill="#ffffff"/>',
                  f'<text x="{WIDTH / 2}" y="22" font-size="14" text-anchor="middle">{escape(self.title)}</text>']
         parts += self._frame(x_axis, y_axis)
         for i, (_, points, how) in enumerate(self.series):
             parts += self._drawn(points, how, COLOURS[i % len(COLOURS)], x_axis, y_axis)
-        return "\n".join(parts + self._legend(places) + ["</svg>"]) + "\n"
+        return "\n".join(parts + legend + ["</svg>"]) + "\n"
 
     def _frame(self, x_axis, y_axis):
         parts, floor = [], HEIGHT - BOTTOM
@@ -100,22 +100,15 @@ class Plot:
             parts += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="2.6" fill="{colour}"/>' for x, y in places]
         return parts
 
-    def _legend(self, places):
-        """In the corner that covers fewest of the points at these pixels."""
+    def _legend(self):
+        """In two columns below the plot; and the height of the whole picture."""
         labels = [(label, how, COLOURS[i % len(COLOURS)]) for i, (label, _, how) in enumerate(self.series) if label]
-        if not labels:
-            return []
-        width, height = 40 + 6.3 * max(len(label) for label, _, _ in labels), 17 * len(labels) + 6
-        corners = [(x, y) for x in (WIDTH - RIGHT - width - 8, LEFT + 8) for y in (TOP + 8, HEIGHT - BOTTOM - height - 8)]
-        left, top = min(corners, key=lambda corner: sum(0 <= x - corner[0] <= width and 0 <= y - corner[1] <= height
-                                                        for x, y in places))
-        parts = [f'<rect x="{left}" y="{top}" width="{width:.0f}" height="{height}" fill="#ffffff" fill-opacity="0.85" '
-                 'stroke="#cccccc"/>']
+        parts = []
         for i, (label, how, colour) in enumerate(labels):
-            y = top + 15 + 17 * i
-            parts += self._drawn([(left + 6, y - 4), (left + 28, y - 4)], how, colour, Pixels, Pixels)
-            parts.append(f'<text x="{left + 34}" y="{y}">{escape(label)}</text>')
-        return parts
+            x, y = LEFT + i % 2 * (WIDTH - LEFT) / 2, HEIGHT + 10 + 17 * (i // 2)
+            parts += self._drawn([(x, y - 4), (x + 24, y - 4)], how, colour, Pixels, Pixels)
+            parts.append(f'<text x="{x + 32:.0f}" y="{y}">{escape(label)}</text>')
+        return parts, HEIGHT + 17 * ((len(labels) + 1) // 2) + (6 if labels else 0)
 
 
 class Pixels:

@@ -111,7 +111,7 @@ NORMS = [("displacement, L2", 2, 2, 0.1), ("energy", 1, 1, 0.1), ("pressure, L2"
 def verify(bench):
     sizes = bench.choose([4, 8, 16], [8, 16, 32], [8, 16, 32, 64])
     rows = []
-    plot = Plot("Convergence: errors against the length of the cells", "h of the lower body", "relative error", log_x=True, log_y=True)
+    plot = Plot("Convergence, meshes that do not match (2:3): errors against the length of the cells", "h of the lower body", "relative error", log_x=True, log_y=True)
     for element, (chosen, reason) in ELEMENTS.items():
         for name, share in (("matching", 1), ("not matching, 2:3", 1.5)):
             runs = bench.run_all([deck(bench, n, round(share * n), chosen) for n in sizes])
@@ -121,6 +121,6 @@ def verify(bench):
                 rows.append(Row(f"{element}, {name}, {norm}: order from n {sizes[-2]} to {sizes[-1]} (error {errors[-1][k]:.1e})",
                                 expected[share > 1], found, tolerance, scale=1, order=found, runs=[runs[-1]], reason=reason if share > 1 else ""))
                 if share > 1:
-                    plot.add(f"{norm}, {element}, {name}", [(1 / n, error[k]) for n, error in zip(sizes, errors)], "line points")
+                    plot.add(f"{norm}, {element}", [(1 / n, error[k]) for n, error in zip(sizes, errors)], "line points")
     bench.plot("errors", plot)
     return rows

@@ -127,7 +127,7 @@ def verify(bench):
     axisymmetric = bench.choose([8, 16], [30, 60], [30, 60, 120])
     space = bench.choose([], [4, 8], [5, 10, 20])
     finest = bench.choose((1e-2, 1e-2, 2e-2, 1e-2), (5e-3, 5e-3, 2e-2, 1e-2))
-    in_space = bench.choose(None, (2e-2, 2e-2, 4e-2, 3e-2), (5e-3, 5e-3, 2e-2, 1e-2))
+    coarse_space, fine_space = (2e-2, 2e-2, 4e-2, 3e-2), (5e-3, 5e-3, 2e-2, 1e-2)
     found = []
     for equal, label in ((False, "rigid sphere on half-space"), (True, "equal spheres")):
         pair = Pair(equal)
@@ -142,5 +142,5 @@ def verify(bench):
                        .add("Hertz", [(d * k / 50, pair.force(d * k / 50)) for d in approach[-1:] for k in range(51)]))
         if sizes := space[:2] if equal else space:
             runs = bench.run_all([deck(bench, 3, equal, n) for n in sizes])
-            found += rows(f"{label}, quarter in space", runs, sizes, pair, 4, in_space)
+            found += rows(f"{label}, quarter in space", runs, sizes, pair, 4, fine_space if sizes[-1] > 10 else coarse_space)
     return found + cylinder_rows(bench, bench.choose(16, 60))
