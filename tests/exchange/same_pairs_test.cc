@@ -118,6 +118,17 @@ TEST_F(SamePairs, ByEveryMethodWithEveryOption)
   }
 }
 
+// Impactor nodes without faces, far and near, on all sides of a closed target and inside it.
+TEST_F(SamePairs, OfNodesAlone)
+{
+  const Surface target = sheet(
+      30, 20, false, [](double s, double t) { return torus(s, t, 1, 0.4); }, true);
+  benchmark::Scene scene{"torus", "nodes alone", cloud_about(target, 800, 0.5, 6), target, 0.2, 0};
+  for (const ExchangeMode mode : modes)
+    for (const Spread spread : {Spread::random, Spread::apart})
+      follow(scene, {}, {mode}, spread, {0});
+}
+
 // Nodes that see the same distance to faces of several processes, on edges and vertices of a matching mesh.
 TEST_F(SamePairs, TiesGoByGlobalIds)
 {
