@@ -50,11 +50,21 @@ def screen(result):
     return "\n".join(lines) + "\n"
 
 
+def stored(name):
+    """Results of a case as they were stored last, or None."""
+    place = os.path.join(STORE, name + ".json")
+    if not os.path.exists(place):
+        return None
+    with open(place, encoding="utf-8") as file:
+        return json.load(file)
+
+
 def store(result, plots):
     """Keeps a case's results and plots in docs/verification, in place of earlier ones."""
     os.makedirs(STORE, exist_ok=True)
-    for old in os.listdir(STORE):
-        if old.startswith(result["case"] + "-") and old.endswith(".svg") and old not in plots:
+    earlier = stored(result["case"])
+    for old in earlier["plots"] if earlier else []:
+        if old not in plots and os.path.exists(os.path.join(STORE, old)):
             os.remove(os.path.join(STORE, old))
     with open(os.path.join(STORE, result["case"] + ".json"), "w", encoding="utf-8") as file:
         json.dump(result, file, indent=1)
@@ -78,9 +88,9 @@ def section(result):
     return "\n".join(lines).rstrip() + "\n"
 
 
-def overview(stored):
+def overview(results_of_all):
     lines = ["| case | rows | short | failed |", "| --- | --- | --- | --- |"]
-    for result in stored:
+    for result in results_of_all:
         verdicts = [row["verdict"] for row in result["rows"]]
         lines.append(f"| {result['title']} | {len(verdicts)} | {verdicts.count('short')} | {verdicts.count('FAILED') + bool(result['failure'])} |")
     return "\n".join(lines) + "\n"
@@ -88,12 +98,7 @@ def overview(stored):
 
 def write(names):
     """docs/verification.md from the stored results of these cases, in this order."""
-    stored = []
-    for name in names:
-        place = os.path.join(STORE, name + ".json")
-        if os.path.exists(place):
-            with open(place, encoding="utf-8") as file:
-                stored.append(json.load(file))
-    text = "\n".join([INTRODUCTION, overview(stored), *(section(result) for result in stored)])
+    found = [result for result in map(stored, names) if result]
+    text = "\n".join([INTRODUCTION, overview(found), *(section(result) for result in found)])
     with open(os.path.join(ROOT, "docs", "verification.md"), "w", encoding="utf-8") as file:
         file.write(text)
