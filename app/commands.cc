@@ -3,6 +3,7 @@
 #include "detection_text.h"
 
 #include "amontons/input/deck.h"
+#include "amontons/output/checkpoint_file.h"
 #include "amontons/output/contact_table.h"
 #include "amontons/output/pictures.h"
 #include "amontons/output/record.h"
@@ -45,22 +46,35 @@ std::filesystem::path default_folder(const std::filesystem::path &deck)
 ExitCode run_deck(const DeckArguments &arguments, const Communicator &world)
 {
   Deck deck;
-  agree_on_errors(world, [&] { deck = read(arguments); });
+  std::optional<SavedRun> saved;
+  agree_on_errors(world,
+                  [&]
+                  {
+                    deck = read(arguments);
+                    if (arguments.restart)
+                      saved = read_checkpoint(*arguments.restart);
+                  });
 
-  const ResultFolder folder(arguments.output.value_or(default_folder(arguments.deck)));
+  const ResultFolder folder(arguments.output.value_or(default_folder(arguments.deck)), saved.has_value());
   Screen screen(std::cout, deck.loading.end, isatty(STDOUT_FILENO) != 0);
   RunRecord record(folder, deck.title, deck.file.string(), world.size());
   ContactTables tables(folder);
   Pictures pictures(folder, deck.output, deck.bodies);
-  // The record last: when it tells of an increment, the files of that increment are there.
-  const std::array<Observer *, 4> observers{&screen, &tables, &pictures, &record};
+  CheckpointWriter checkpoints(folder, deck.output.checkpoint, record, pictures);
+  if (saved)
+  {
+    record.resume(std::move(saved->record), saved->checkpoint.increment);
+    pictures.resume(std::move(saved->series));
+  }
+  // The record after the files that it tells of.
+  const std::array<Observer *, 5> observers{&screen, &tables, &pictures, &record, &checkpoints};
 
   if (!deck.title.empty())
     std::cout << deck.title << '\n';
   RunResult result;
   try
   {
-    result = run(deck, observers);
+    result = run(deck, observers, saved ? &saved->checkpoint : nullptr);
   }
   catch (const std::exception &error)
   {

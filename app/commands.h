@@ -24,9 +24,10 @@ enum class ExitCode : int
 struct DeckArguments
 {
   std::filesystem::path deck;
-  std::vector<std::string> overrides;          ///< "key.path=value"
-  std::optional<std::filesystem::path> output; ///< folder; default_folder() where absent
-  std::optional<DetectionMethod> method;       ///< the deck's where absent
+  std::vector<std::string> overrides;           ///< "key.path=value"
+  std::optional<std::filesystem::path> output;  ///< folder; default_folder() where absent
+  std::optional<std::filesystem::path> restart; ///< the checkpoint to go on from
+  std::optional<DetectionMethod> method;        ///< the deck's where absent
   bool json = false;
 };
 

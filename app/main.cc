@@ -47,6 +47,8 @@ void add_commands(CLI::App &app, CommandLine &line)
   DeckArguments &arguments = line.arguments;
   CLI::App *run = add_deck_command(app, "run", "solve a deck", arguments);
   run->add_option("--output", arguments.output, "folder of the results [<deck>-results]")->type_name("DIR");
+  run->add_option("--restart", arguments.restart, "go on from this checkpoint (output: {checkpoint: n} in the deck)")
+      ->type_name("FILE");
   run->callback([&] { line.command = [&](const Communicator &world, auto &) { return run_deck(arguments, world); }; });
 
   add_deck_command(app, "check", "tell what can be known before solving", arguments)

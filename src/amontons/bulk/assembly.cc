@@ -254,6 +254,24 @@ void BodyAssembly::commit(std::span<const double> displacement)
     block->commit(displacement);
 }
 
+CellHistories BodyAssembly::histories() const
+{
+  CellHistories out;
+  out.offset.push_back(0);
+  for (const auto &block : impl_->blocks)
+    block->append_history(out);
+  return out;
+}
+
+void BodyAssembly::set_histories(const CellHistories &histories)
+{
+  std::vector<Index> place(impl_->body_of_cell.size(), -1);
+  for (std::size_t i = 0; i < histories.cells.size(); ++i)
+    place.at(static_cast<std::size_t>(histories.cells[i])) = static_cast<Index>(i);
+  for (const auto &block : impl_->blocks)
+    block->set_history(histories, place);
+}
+
 std::vector<double> BodyAssembly::plastic_strain() const
 {
   if (std::none_of(impl_->blocks.begin(), impl_->blocks.end(),

@@ -1,5 +1,6 @@
 #pragma once
 #include "amontons/algebra/subdomain_matrix.h"
+#include "amontons/bulk/cell_histories.h"
 #include "amontons/bulk/mesh.h"
 #include "amontons/bulk/options.h"
 
@@ -51,6 +52,10 @@ public:
   /// Takes a displacement as the end of an increment. Until the next call all of the above starts from the plastic
   /// strain that is reached there; a displacement tried in between leaves no trace.
   void commit(std::span<const double> displacement);
+
+  /// What plastic cells remember of the last commit; takes it up. @throws UserError where it is of other cells
+  [[nodiscard]] CellHistories histories() const;
+  void set_histories(const CellHistories &histories);
 
   /// Equivalent plastic strain at the last commit, cell means, zero in cells of other laws. [n_cells], or empty where
   /// no body is plastic

@@ -180,6 +180,38 @@ public:
              history_[c * Cell::points + q] = cell.history(q);
          });
   }
+  void append_history(CellHistories &out) const override
+  {
+    for (std::size_t c = 0; c < this->size(); ++c)
+    {
+      out.cells.push_back(this->list_.cells[c]);
+      for (int q = 0; q < Cell::points; ++q)
+      {
+        const PlasticHistory<double> &point = history_[c * Cell::points + q];
+        out.values.insert(out.values.end(), point.strain.data(), point.strain.data() + point.strain.size());
+        out.values.push_back(point.equivalent);
+      }
+      out.offset.push_back(out.values.size());
+    }
+  }
+  void set_history(const CellHistories &histories, std::span<const Index> place) override
+  {
+    for (std::size_t c = 0; c < this->size(); ++c)
+    {
+      const Index at = place[this->list_.cells[c]];
+      const auto n = static_cast<std::size_t>(history_[0].strain.size()) + 1;
+      if (at < 0 || histories.offset[at + 1] - histories.offset[at] != Cell::points * n)
+        throw UserError("the checkpoint holds no plastic strain of cell " + std::to_string(this->list_.cells[c]) +
+                        ": it is of another problem");
+      const double *value = histories.values.data() + histories.offset[at];
+      for (int q = 0; q < Cell::points; ++q, value += n)
+      {
+        PlasticHistory<double> &point = history_[c * Cell::points + q];
+        std::copy_n(value, n - 1, point.strain.data());
+        point.equivalent = value[n - 1];
+      }
+    }
+  }
   void write_plastic_strain(std::span<double> strain) const override
   {
     for (std::size_t c = 0; c < this->size(); ++c)

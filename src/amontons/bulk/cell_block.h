@@ -1,4 +1,5 @@
 #pragma once
+#include "amontons/bulk/cell_histories.h"
 #include "amontons/bulk/cell_pattern.h"
 #include "amontons/bulk/material_von_mises.h"
 
@@ -34,6 +35,9 @@ public:
 
   /// Takes the displacement as the end of an increment: the next ones start from its plastic strain.
   virtual void commit(std::span<const double> /*displacement*/) {}
+  /// Appends what was committed. / Takes it up. @param place of each cell of the mesh in `histories`, -1 for none
+  virtual void append_history(CellHistories & /*histories*/) const {}
+  virtual void set_history(const CellHistories & /*histories*/, std::span<const Index> /*place*/) {}
   /// Writes the rows of its own cells: mean equivalent plastic strain at the last commit.
   virtual void write_plastic_strain(std::span<double> /*strain*/) const {}
 

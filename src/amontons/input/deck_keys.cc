@@ -104,6 +104,8 @@ Section<OutputOptions> output_keys()
       }));
   keys.integer("every", &OutputOptions::every, not_negative, optional,
                "pictures of every n-th increment and of the last; 0: none");
+  keys.integer("checkpoint", &OutputOptions::checkpoint, not_negative, optional,
+               "a checkpoint after every n-th increment and the last, from which run --restart goes on; 0: none");
   return keys;
 }
 

@@ -19,7 +19,7 @@ bool is_result(const fs::path &file)
   const bool of_contact =
       name.starts_with("contact_") && (extension == ".csv" || extension == ".pvd" || extension == ".vtu");
   const bool of_bodies = name == "solution.pvd" || (name.starts_with("solution_") && extension == ".vtu");
-  return name == "record.json" || of_contact || of_bodies || name.ends_with(".part");
+  return name == "record.json" || name == checkpoint_file || of_contact || of_bodies || name.ends_with(".part");
 }
 
 void remove_results(const fs::path &folder)
@@ -33,7 +33,7 @@ void remove_results(const fs::path &folder)
 }
 } // namespace
 
-ResultFolder::ResultFolder(fs::path path)
+ResultFolder::ResultFolder(fs::path path, bool keep)
   : path_(std::move(path))
 {
   if (fs::exists(path_) && !fs::is_directory(path_))
@@ -41,7 +41,8 @@ ResultFolder::ResultFolder(fs::path path)
   try
   {
     fs::create_directories(path_);
-    remove_results(path_);
+    if (!keep)
+      remove_results(path_);
   }
   catch (const fs::filesystem_error &error)
   {

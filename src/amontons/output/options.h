@@ -14,6 +14,7 @@ enum class OutputField
 struct OutputOptions
 {
   std::vector<OutputField> fields{OutputField::displacement, OutputField::stress, OutputField::plastic_strain};
-  int every = 1; ///< write pictures every n increments, and the last; 0: never
+  int every = 1;      ///< write pictures every n increments, and the last; 0: never
+  int checkpoint = 0; ///< write a checkpoint every n increments, and at the last; 0: never
 };
 } // namespace amontons

@@ -121,9 +121,18 @@ Pictures::Pictures(const ResultFolder &folder, OutputOptions options, std::vecto
 {
 }
 
+void Pictures::resume(Series earlier)
+{
+  series_ = std::move(earlier);
+  for (auto &[stem, files] : series_)
+    std::erase_if(files, [this](const auto &entry) { return !std::filesystem::exists(folder_.path() / entry.second); });
+}
+
 void Pictures::start(const SolutionState &initial, std::int64_t /*n_dofs*/)
 {
-  if (options_.every > 0)
+  if (initial.increment > 0) // a run that goes on
+    last_written_ = initial.increment;
+  else if (options_.every > 0)
     write(initial);
 }
 

@@ -26,6 +26,12 @@ public:
   /// `folder` must outlive it.
   Pictures(const ResultFolder &folder, OutputOptions options, std::vector<BodyOptions> bodies);
 
+  /// By stem: time and file.
+  using Series = std::map<std::string, std::vector<std::pair<double, std::string>>>;
+  /// Goes on with the series of an earlier run, as far as its files are in the folder.
+  void resume(Series earlier);
+  [[nodiscard]] const Series &series() const { return series_; }
+
   void start(const SolutionState &initial, std::int64_t n_dofs) override;
   void accepted(const IncrementReport &report, const SolutionState &state) override;
   void finish(const SolutionState &last, const Counters &counters, const Timers &timers,
@@ -38,7 +44,7 @@ private:
   const ResultFolder &folder_;
   OutputOptions options_;
   std::vector<BodyOptions> bodies_;
-  int last_written_ = -1;                                                     ///< increment
-  std::map<std::string, std::vector<std::pair<double, std::string>>> series_; ///< by stem: time and file
+  int last_written_ = -1; ///< increment
+  Series series_;
 };
 } // namespace amontons

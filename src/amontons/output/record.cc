@@ -78,6 +78,14 @@ RunRecord::RunRecord(const ResultFolder &folder, const std::string &title, const
 
 RunRecord::~RunRecord() = default;
 
+void RunRecord::resume(Json earlier, int increment)
+{
+  for (const char *list : {"increments", "rejected", "warnings", "restarts"})
+    if (earlier.contains(list))
+      (*record_)[list] = std::move(earlier[list]);
+  (*record_)["restarts"].push_back({{"after_increment", increment}});
+}
+
 void RunRecord::start(const SolutionState & /*initial*/, std::int64_t n_dofs)
 {
   (*record_)["n_dofs"] = n_dofs;

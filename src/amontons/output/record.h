@@ -18,6 +18,11 @@ public:
   RunRecord(const ResultFolder &folder, const std::string &title, const std::string &deck, int n_processes);
   ~RunRecord() override;
 
+  /// Goes on with the record of an earlier run, as written() gave it.
+  /// @param increment after which this run goes on
+  void resume(nlohmann::ordered_json earlier, int increment);
+  [[nodiscard]] const nlohmann::ordered_json &written() const { return *record_; }
+
   void start(const SolutionState &initial, std::int64_t n_dofs) override;
   void accepted(const IncrementReport &report, const SolutionState &state) override;
   void rejected(const IncrementReport &report, const std::string &cause) override;

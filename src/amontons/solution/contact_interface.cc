@@ -307,4 +307,15 @@ void ContactInterface::set_initial_gap(std::span<const double> displacement)
       gap_offset_[i] = options_.tied ? gap : std::min(0.0, gap);
     }
 }
+
+void ContactInterface::set_history(const ContactHistory &history)
+{
+  const auto n = static_cast<std::size_t>(n_nodes());
+  if (history.status.size() != n || history.total_slip.size() != n * (dim_ - 1) ||
+      history.pairing.size() != pairing_.size())
+    throw UserError("the checkpoint holds another number of nodes of contact '" + options_.name + "'");
+  status_ = history.status;
+  total_slip_ = history.total_slip;
+  pairing_ = start_pairing_ = history.pairing;
+}
 } // namespace amontons

@@ -15,6 +15,14 @@
 
 namespace amontons
 {
+/// What a contact's nodes remember of the increments before.
+struct ContactHistory
+{
+  Pairing pairing;
+  std::vector<ContactStatus> status;
+  std::vector<double> total_slip; ///< as ContactResult::slip
+};
+
 /// One contact of the deck: its surfaces, its pairing and the history of its nodes.
 ///
 /// Displacements are nodal vectors [n_nodal] as in State; `start` is the one at the beginning of the increment.
@@ -95,6 +103,9 @@ public:
     status_ = result.status;
     start_pairing_ = pairing_;
   }
+  /// What commit() remembered; takes it up. @throws UserError where it is of other nodes
+  [[nodiscard]] ContactHistory history() const { return {start_pairing_, status_, total_slip_}; }
+  void set_history(const ContactHistory &history);
   /// Status at the end of the last increment.
   [[nodiscard]] ContactStatus committed_status(Index i) const { return status_[i]; }
 

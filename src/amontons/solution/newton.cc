@@ -274,7 +274,7 @@ NewtonOutcome Newton::solve(State &state, double from, double to)
     try
     {
       attempt(state, start, to, beginning, outcome);
-      predictor_.remember(start, from, to);
+      predictor_.set_last(LastIncrement{start, from, to});
       break;
     }
     catch (const NumericalFailure &failure)

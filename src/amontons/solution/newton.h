@@ -40,6 +40,10 @@ public:
   /// Residual at a converged state, nodal: reactions at held components. [n_nodal]
   [[nodiscard]] const std::vector<double> &residual() const { return residual_; }
 
+  /// From which the next increment's end is guessed; empty at first.
+  [[nodiscard]] const std::optional<LastIncrement> &last_increment() const { return predictor_.last(); }
+  void set_last_increment(std::optional<LastIncrement> last) { predictor_.set_last(std::move(last)); }
+
   /// Called before each solve() of an increment: searches faces and starts the slip. @param reach see Detector
   void begin_increment(const State &state, double reach);
 

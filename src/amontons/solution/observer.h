@@ -1,11 +1,12 @@
 #pragma once
 #include "amontons/base/timer.h"
-#include "amontons/solution/results.h"
+#include "amontons/solution/checkpoint.h"
 
 namespace amontons
 {
 /// Listens to a run. Calls come in this order: start, then per increment attempt begin, iteration..., and accepted or
-/// rejected; at last finish. Every process calls; what an observer writes is its own affair.
+/// rejected, after accepted perhaps checkpoint; at last finish. Every process calls; what an observer writes is its own
+/// affair.
 class Observer
 {
 public:
@@ -20,6 +21,9 @@ public:
   virtual void iteration(const IterationReport & /*report*/) {}
   virtual void accepted(const IncrementReport & /*report*/, const SolutionState & /*state*/) {}
   virtual void rejected(const IncrementReport & /*report*/, const std::string & /*cause*/) {}
+  /// Whether a checkpoint is to be handed over after an accepted increment. @param last of the run
+  [[nodiscard]] virtual bool wants_checkpoint(int /*increment*/, bool /*last*/) const { return false; }
+  virtual void checkpoint(const Checkpoint & /*checkpoint*/) {}
   /// Something the user should know that is no error.
   virtual void warning(const std::string & /*message*/) {}
   /// @param failure empty when the run reached its end

@@ -39,13 +39,6 @@ Change compare(std::span<const double> start, std::span<const double> now, std::
 }
 } // namespace
 
-void Predictor::remember(const State &start, double start_time, double end_time)
-{
-  start_ = start;
-  start_time_ = start_time;
-  end_time_ = end_time;
-}
-
 Predictor::Loads Predictor::loads(const State &state, double time)
 {
   Loads out;
@@ -62,7 +55,7 @@ Predictor::Loads Predictor::loads(const State &state, double time)
 
 std::optional<double> Predictor::load_ratio(const State &now, double from, double to)
 {
-  const Loads start = loads(now, start_time_), middle = loads(now, from), end = loads(now, to);
+  const Loads start = loads(now, last_->from), middle = loads(now, from), end = loads(now, to);
   const Change motion = compare(start.displacement, middle.displacement, end.displacement);
   const Change force = compare(start.force, middle.force, end.force);
   if (!motion.goes_on || !force.goes_on || (!motion.moves && !force.moves))
@@ -75,19 +68,19 @@ std::optional<double> Predictor::load_ratio(const State &now, double from, doubl
 
 std::optional<State> Predictor::guess(const State &now, double from, double to)
 {
-  if (!start_ || from != end_time_)
+  if (!last_ || from != last_->to)
     return {};
   const std::optional<double> ratio = load_ratio(now, from, to);
   if (!ratio)
     return {};
   State out = now;
   for (std::size_t i = 0; i < out.displacement.size(); ++i)
-    out.displacement[i] += *ratio * (now.displacement[i] - start_->displacement[i]);
+    out.displacement[i] += *ratio * (now.displacement[i] - last_->start.displacement[i]);
   for (std::size_t i = 0; i < out.multipliers.size(); ++i)
-    out.multipliers[i] += *ratio * (now.multipliers[i] - start_->multipliers[i]);
+    out.multipliers[i] += *ratio * (now.multipliers[i] - last_->start.multipliers[i]);
   for (std::size_t b = 0; b < out.rigid.size(); ++b)
   {
-    const RigidState &before = start_->rigid[b];
+    const RigidState &before = last_->start.rigid[b];
     RigidState &body = out.rigid[b];
     body.translation += *ratio * (body.translation - before.translation);
     body.rotation_vector += *ratio * (body.rotation_vector - before.rotation_vector);

@@ -6,6 +6,13 @@
 
 namespace amontons
 {
+/// Where the last increment began, and when.
+struct LastIncrement
+{
+  State start;
+  double from = 0, to = 0;
+};
+
 /// Guess of an increment's end: displacements, rigid motions and multipliers go on as in the last increment, as far as
 /// the loads do. There is no guess where the loads turn to another direction.
 class Predictor
@@ -16,8 +23,9 @@ public:
   {
   }
 
-  /// An increment has converged; `start` is where it began.
-  void remember(const State &start, double start_time, double end_time);
+  /// The increment that converged last.
+  [[nodiscard]] const std::optional<LastIncrement> &last() const { return last_; }
+  void set_last(std::optional<LastIncrement> last) { last_ = std::move(last); }
 
   /// @param now the state at time `from`, the last one remembered
   [[nodiscard]] std::optional<State> guess(const State &now, double from, double to);
@@ -37,7 +45,6 @@ private:
   [[nodiscard]] std::optional<double> load_ratio(const State &now, double from, double to);
 
   Model &model_;
-  std::optional<State> start_;
-  double start_time_ = 0, end_time_ = 0;
+  std::optional<LastIncrement> last_;
 };
 } // namespace amontons

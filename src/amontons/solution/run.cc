@@ -122,7 +122,7 @@ std::vector<std::string> initial_warnings(const Model &model)
 class Run
 {
 public:
-  Run(const ProblemOptions &options, std::span<Observer *const> observers)
+  Run(const ProblemOptions &options, std::span<Observer *const> observers, const Checkpoint *from)
     : observers_(observers)
   {
     {
@@ -138,32 +138,37 @@ public:
       contact.set_augmentation(diagonal);
     detect_first(*model_, state_);
     counters_.n_detections += static_cast<std::int64_t>(model_->contacts().size());
+    step_ = std::min(model_->options().loading.end / model_->options().loading.increments, most_step());
+    if (from)
+      restore(*from);
     solvers_ = linear_solvers(model_->options(), model_->mesh());
     take_next_solver();
+    if (from)
+      newton_->set_last_increment(from->last);
   }
 
   RunResult solve()
   {
-    tell(&Observer::start, solution(0, {}), static_cast<std::int64_t>(model_->layout().n_unknowns()));
-    for (const std::string &warning : initial_warnings(*model_))
-      tell(&Observer::warning, warning);
+    SolutionState last = solution({});
+    tell(&Observer::start, last, static_cast<std::int64_t>(model_->layout().n_unknowns()));
+    if (increment_ == 0)
+      for (const std::string &warning : initial_warnings(*model_))
+        tell(&Observer::warning, warning);
     const LoadingOptions &loading = model_->options().loading;
     const double first = loading.end / loading.increments;
     const double least = loading.min_increment.value_or(default_min_increment * first);
-    const double most = loading.max_increment.value_or(first);
-    double time = 0, step = std::min(first, most);
-    SolutionState last = solution(0, {});
     std::string failure;
-    for (int increment = 1, cutbacks = 0; time < loading.end;)
+    for (int cutbacks = 0; time_ < loading.end;)
     {
-      double to = time + step;
+      double to = time_ + step_;
       if (to > loading.end - 1e-9 * loading.end)
         to = loading.end;
-      tell(&Observer::begin_increment, increment, to, to - time);
+      const double length = to - time_;
+      tell(&Observer::begin_increment, increment_ + 1, to, length);
       State next = state_;
-      newton_->begin_increment(next, reach(time, to));
-      const NewtonOutcome outcome = newton_->solve(next, time, to);
-      const IncrementReport report{to, to - time, outcome.n_iterations, outcome.n_linear_iterations, cutbacks};
+      newton_->begin_increment(next, reach(time_, to));
+      const NewtonOutcome outcome = newton_->solve(next, time_, to);
+      const IncrementReport report{to, length, outcome.n_iterations, outcome.n_linear_iterations, cutbacks};
       if (!outcome.converged)
       {
         tell(&Observer::rejected, report, outcome.cause);
@@ -174,23 +179,24 @@ public:
           continue;
         }
         ++cutbacks;
-        step = cut_factor * (to - time);
-        if (loading.fixed || step < least)
+        step_ = cut_factor * length;
+        if (loading.fixed || step_ < least)
         {
-          failure = "increment " + std::to_string(increment) + " (t = " + std::to_string(time) + " to " +
+          failure = "increment " + std::to_string(increment_ + 1) + " (t = " + std::to_string(time_) + " to " +
                     std::to_string(to) + "): " + outcome.cause;
           break;
         }
         continue;
       }
-      last = accept(next, increment, to);
+      last = accept(next, to);
       tell(&Observer::accepted, report, last);
       if (!loading.fixed && outcome.n_iterations <= easy_iterations)
-        step = std::min(most, growth_factor * step);
-      time = to;
+        step_ = std::min(most_step(), growth_factor * step_);
       cutbacks = 0;
-      ++increment;
+      hand_over_checkpoint(time_ >= loading.end);
     }
+    if (!failure.empty() && increment_ > 0)
+      hand_over_checkpoint(true);
     tell(&Observer::finish, last, counters_, timers_, failure);
     return {failure.empty(), failure};
   }
@@ -204,10 +210,63 @@ private:
       (observer->*event)(arguments...);
   }
 
+  [[nodiscard]] double most_step() const
+  {
+    const LoadingOptions &loading = model_->options().loading;
+    return loading.max_increment.value_or(loading.end / loading.increments);
+  }
+
+  void restore(const Checkpoint &from)
+  {
+    if (from.mesh_key != mesh_key(model_->mesh()) || from.state.displacement.size() != state_.displacement.size() ||
+        from.state.multipliers.size() != state_.multipliers.size() || from.state.rigid.size() != state_.rigid.size() ||
+        from.contacts.size() != model_->contacts().size())
+      throw UserError(
+          "the checkpoint is of another problem: mesh, rigid bodies and contacts must be those of the deck");
+    if (from.time >= model_->options().loading.end)
+      throw UserError("the checkpoint is of t = " + std::to_string(from.time) +
+                      ", the end of the run: for a longer "
+                      "one, set loading.end (and loading.increments, for the same steps)");
+    state_ = start_ = from.state;
+    time_ = from.time;
+    increment_ = from.increment;
+    step_ = std::min(from.next_step, most_step());
+    last_motion_ = from.last_motion;
+    counters_ = from.counters;
+    for (std::size_t c = 0; c < from.contacts.size(); ++c)
+      model_->contacts()[c].set_history(from.contacts[c]);
+    model_->bodies().set_histories(from.cells);
+    model_->update_layout(state_);
+  }
+
+  void hand_over_checkpoint(bool last)
+  {
+    std::optional<Checkpoint> checkpoint;
+    for (Observer *observer : observers_)
+    {
+      if (!observer->wants_checkpoint(increment_, last))
+        continue;
+      const auto scope = timers_.measure("output");
+      if (!checkpoint)
+      {
+        checkpoint = Checkpoint{
+            mesh_key(model_->mesh()),     increment_, time_, step_, last_motion_, state_, newton_->last_increment(), {},
+            model_->bodies().histories(), counters_};
+        for (const ContactInterface &contact : model_->contacts())
+          checkpoint->contacts.push_back(contact.history());
+      }
+      observer->checkpoint(*checkpoint);
+    }
+  }
+
   void take_next_solver()
   {
+    std::optional<LastIncrement> last;
+    if (newton_)
+      last = newton_->last_increment();
     newton_ = std::make_unique<Newton>(*model_, solvers_.front(), counters_, timers_,
                                        [this](const IterationReport &r) { tell(&Observer::iteration, r); });
+    newton_->set_last_increment(std::move(last));
     solvers_.erase(solvers_.begin());
   }
 
@@ -221,24 +280,24 @@ private:
     return reach;
   }
 
-  [[nodiscard]] SolutionState solution(int increment, std::vector<Reaction> reactions)
+  [[nodiscard]] SolutionState solution(std::vector<Reaction> reactions)
   {
     SolutionState out;
     out.mesh = &model_->mesh();
     out.time = time_;
-    out.increment = increment;
+    out.increment = increment_;
     const auto u = model_->mesh_part(state_.displacement);
     out.displacement.assign(u.begin(), u.end());
     out.stress = model_->bodies().stress(u);
     out.plastic_strain = model_->bodies().plastic_strain();
-    const State &start = increment > 0 ? start_ : state_;
+    const State &start = increment_ > 0 ? start_ : state_;
     for (ContactInterface &contact : model_->contacts())
       out.contacts.push_back(contact.result(state_.displacement, start.displacement, state_.multipliers));
     out.reactions = std::move(reactions);
     return out;
   }
 
-  SolutionState accept(State &next, int increment, double time)
+  SolutionState accept(State &next, double time)
   {
     last_motion_ = 0;
     for (std::size_t i = 0; i < next.displacement.size(); ++i)
@@ -246,8 +305,9 @@ private:
     start_ = std::move(state_);
     state_ = std::move(next);
     time_ = time;
+    ++increment_;
     model_->bodies().commit(model_->mesh_part(state_.displacement));
-    SolutionState out = solution(increment, model_->reactions(newton_->residual()));
+    SolutionState out = solution(model_->reactions(newton_->residual()));
     for (std::size_t c = 0; c < out.contacts.size(); ++c)
       model_->contacts()[c].commit(out.contacts[c]);
     return out;
@@ -260,14 +320,16 @@ private:
   std::unique_ptr<Newton> newton_;
   std::vector<LinearSolverType> solvers_; ///< that may yet be taken
   State state_, start_;
-  double time_ = 0;
+  int increment_ = 0; ///< the last converged one
+  double time_ = 0;   ///< at its end
+  double step_ = 0;   ///< length of the next
   double last_motion_ = 0;
 };
 } // namespace
 
-RunResult run(const ProblemOptions &options, std::span<Observer *const> observers)
+RunResult run(const ProblemOptions &options, std::span<Observer *const> observers, const Checkpoint *from)
 {
-  return Run(options, observers).solve();
+  return Run(options, observers, from).solve();
 }
 
 ProblemCheck check_problem(const ProblemOptions &options)

@@ -18,9 +18,11 @@ struct RunResult
   std::string failure; ///< named cause; empty when converged
 };
 
-/// Solves a problem from t = 0 to its end and tells the observers. Collective.
-/// @throws UserError for what only the mesh can tell is wrong (check_problem finds the same).
-RunResult run(const ProblemOptions &options, std::span<Observer *const> observers);
+/// Solves a problem to its end and tells the observers. Collective.
+/// @param from where an earlier run left off; null: from t = 0
+/// @throws UserError for what only the mesh can tell is wrong (check_problem finds the same), and for a checkpoint of
+///         another problem
+RunResult run(const ProblemOptions &options, std::span<Observer *const> observers, const Checkpoint *from = nullptr);
 
 /// What can be known of a contact before solving.
 struct ContactCheck
