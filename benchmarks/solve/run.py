@@ -171,7 +171,7 @@ def main():
                     bench.blocks(26, ["amg", "feti"], ["amg", "feti"])
                     bench.later_increments(26, "auto")
             if wanted("large") and not options.quick:
-                bench.blocks(40, ["auto"], ["amg", "feti"])
+                bench.blocks(41, ["auto"], ["amg", "feti"])
             if wanted("punch"):
                 sizes = ([100], [200]) if options.quick else ([100], [200], [400], [800])
                 bench.example("punch", "punch/punch.yaml", [(f"mesh.parameters.n={n}",) for n, in sizes],
