@@ -15,7 +15,9 @@ using testing::Not;
 
 void play(Screen &screen, Example &example, const std::string &failure)
 {
-  screen.start(example.state, 18);
+  SolutionState initial = example.state;
+  initial.increment = 0;
+  screen.start(initial, 18);
   screen.begin_increment(1, 0.25, 0.25);
   screen.iteration({1, 1.5e-3, 0.1, 2, 2, 1, 1, 0.5, "node 812 open<->slip for the 3rd time"});
   example.state.increment = 1;
