@@ -41,7 +41,7 @@ std::unique_ptr<Method> make_method(const Scene &scene, const std::string &name)
 // The samples of one method; all in ns per impactor node.
 struct Samples
 {
-  std::vector<double> setup, build, query, total, again;
+  std::vector<double> setup, build, query, total, again, moved;
   std::map<std::string, std::vector<double>> steps;
   double bytes = 0; ///< per surface node, both sides
   std::vector<double> distances;
@@ -110,6 +110,11 @@ private:
       again += phases.build + phases.query;
     }
     samples.again.push_back(again / n_steps * ns_);
+    if (method->keeps_pairs())
+    {
+      const Phases phases = make_method(scene_, name)->detect(positions_[n_steps]);
+      samples.moved.push_back((phases.build + phases.query) * ns_);
+    }
     if (samples.distances.empty())
       compare_own(name, samples);
   }
@@ -214,6 +219,8 @@ private:
     result["query_ns"] = median(samples.query);
     result["total_ns"] = median(samples.total);
     result["redetect_ns"] = median(samples.again);
+    if (!samples.moved.empty())
+      result["moved_ns"] = median(samples.moved);
     result["bytes_per_node"] = samples.bytes;
     result["repeats"] = samples.total.size();
     result["fastest_total_ns"] = *std::min_element(samples.total.begin(), samples.total.end());

@@ -50,6 +50,11 @@ def nanoseconds(row, key="total_ns"):
     return f"{row[key]:.0f}" if row and key in row else ""
 
 
+def again_over_nothing(row):
+    """A re-detection over a detection from nothing at the same places."""
+    return row["redetect_ns"] / row["moved_ns"]
+
+
 def totals(results):
     """Total time of all methods on all surfaces, and the ratios to ours."""
     rows = []
@@ -79,10 +84,10 @@ def queries(results):
             cells.append(f"{row['build_ns']:.0f} + {row['query_ns']:.0f}" if row else "")
         ours, embree = results.get(configuration, "exact"), results.get(configuration, "embree")
         cells.append(f"{embree['query_ns'] / ours['query_ns']:.2f}" if embree else "")
-        cells.append(f"{ours['redetect_ns'] / ours['total_ns']:.2f}")
+        cells.append(f"{again_over_nothing(ours):.2f}")
         rows.append(cells)
     return markdown(["surface", "faces", "nodes", "exact", "nanoflann", "embree", "cgal", "query: embree / exact",
-                     "again / first"], rows)
+                     "again / from nothing"], rows)
 
 
 def wrong(results):
@@ -199,8 +204,8 @@ def claims(results):
             at_least(f"{where}: nanoflann / exact", factors[0], others["nanoflann"]["total_ns"] / ours["total_ns"])
             at_least(f"{where}: Embree / exact", factors[1], others["embree"]["total_ns"] / ours["total_ns"])
             at_least(f"{where}: query, Embree / exact", factors[2], others["embree"]["query_ns"] / ours["query_ns"])
-        claim(f"{where}: again / first", "at most 0.5", f"{ours['redetect_ns'] / ours['total_ns']:.2f}",
-              ours["redetect_ns"] <= 0.5 * ours["total_ns"])
+        claim(f"{where}: again / from nothing", "at most 0.5", f"{again_over_nothing(ours):.2f}",
+              again_over_nothing(ours) <= 0.5)
     claims_of_size(results, claim)
     return markdown(["", "wanted", "measured", "holds"], rows)
 

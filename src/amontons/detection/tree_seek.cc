@@ -18,7 +18,7 @@ void TreeSearch<dim>::seek(const Query &query, std::span<const Index> nodes, std
   }
   project_all();
   for (int place = 0; place < n_pending; ++place)
-    block_[place].radius = block_[place].face < 0 ? std::min(usual_radius_, query.w) : block_[place].bound();
+    block_[place].radius = std::min(usual_radius_, block_[place].bound()); // a face known from before may be far by now
   while (n_pending > 0)
   {
     n_groups_ = 0;
@@ -52,7 +52,7 @@ bool TreeSearch<dim>::is_done(Sought &sought, double w) const
   return false;
 }
 
-// Projects on the likeliest face of each node that has none yet.
+// Projects on the likeliest face of each node that has none yet within its radius.
 template<int dim>
 void TreeSearch<dim>::guess(const Query &query)
 {
@@ -60,7 +60,7 @@ void TreeSearch<dim>::guess(const Query &query)
   {
     bool all_known = true;
     for (int i = 0; i < group.n_places; ++i)
-      if (const Sought &sought = block_[group.places[i]]; sought.face < 0)
+      if (const Sought &sought = block_[group.places[i]]; sought.face < 0 || sought.bound() > sought.radius)
       {
         const double reach = sought.radius + faces_.motion();
         tree_.set_bound(group.front, i, reach * reach);
