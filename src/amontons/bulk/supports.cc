@@ -2,9 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace amontons
 {
+namespace
+{
+std::string text(double value)
+{
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+} // namespace
+
 const Group &boundary_group(const Mesh &mesh, const std::vector<BodyOptions> &bodies, const BoundaryOptions &entry)
 {
   if (!mesh.groups.contains(entry.region))
@@ -69,6 +80,10 @@ void Supports::add_entry(int entry, const BoundaryOptions &options, const Group 
 void Supports::merge(const std::vector<BoundaryOptions> &boundary, double end)
 {
   std::stable_sort(held_.begin(), held_.end(), [](const auto &a, const auto &b) { return a.nodal < b.nodal; });
+  // Expressions of coordinates that cancel leave round-off of the coordinates' size.
+  double round_off = 0;
+  for (const double x : mesh_.points)
+    round_off = std::max(round_off, 1e-14 * std::abs(x));
   std::vector<HeldComponent> merged;
   for (const HeldComponent &held : held_)
   {
@@ -81,13 +96,12 @@ void Supports::merge(const std::vector<BoundaryOptions> &boundary, double end)
     for (const double time : {0.0, 0.37 * end, end})
     {
       const double a = value(first, time), b = value(held, time);
-      if (std::abs(a - b) > 1e-12 * std::max(std::abs(a), std::abs(b)))
+      if (std::abs(a - b) > 1e-12 * std::max(std::abs(a), std::abs(b)) + round_off)
         throw UserError(boundary[held.entry].where,
                         "conflicting boundary conditions: component " + std::string(1, "xyz"[held.nodal % mesh_.dim]) +
                             " of node " + std::to_string(mesh_.node_tags[held.nodal / mesh_.dim]) + " is moved by " +
-                            std::to_string(a) + " through region '" + boundary[first.entry].region + "' and by " +
-                            std::to_string(b) + " through region '" + boundary[held.entry].region +
-                            "' at t = " + std::to_string(time));
+                            text(a) + " through region '" + boundary[first.entry].region + "' and by " + text(b) +
+                            " through region '" + boundary[held.entry].region + "' at t = " + text(time));
     }
   }
   held_ = std::move(merged);
