@@ -55,7 +55,11 @@ ExitCode run_deck(const DeckArguments &arguments, const Communicator &world)
                       saved = read_checkpoint(*arguments.restart);
                   });
 
-  const ResultFolder folder(arguments.output.value_or(default_folder(arguments.deck)), saved.has_value());
+  const std::filesystem::path path = arguments.output.value_or(default_folder(arguments.deck));
+  const bool same_folder =
+      saved && std::filesystem::exists(path) &&
+      std::filesystem::equivalent(path, std::filesystem::absolute(*arguments.restart).parent_path());
+  const ResultFolder folder(path, same_folder);
   Screen screen(std::cout, deck.loading.end, isatty(STDOUT_FILENO) != 0);
   RunRecord record(folder, deck.title, deck.file.string(), world.size());
   ContactTables tables(folder);

@@ -25,7 +25,7 @@ def cells(row):
     order = "" if row["order"] is None else f"{row['order']:.2f}"
     known = math.isfinite(row["reference"])
     return [row["quantity"], f"{row['reference']:.8g}" if known else "none", f"{row['ours']:.8g}",
-            f"{row['error']:.1e}" if known else "", f"{row['tolerance']:.0e}", order, newton, row["verdict"]]
+            f"{row['error']:.1e}" if known else "", f"{row['tolerance']:.1e}", order, newton, row["verdict"]]
 
 
 def reasons(result):

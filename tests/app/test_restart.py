@@ -63,7 +63,8 @@ class Restart(CommandTest):
 
     def test_killed_at_any_moment(self):
         """AMONTONS_KILLS in the environment: how often, each time at a random moment of one of the next increments."""
-        n_kills, n_increments = int(os.environ.get("AMONTONS_KILLS", 3)), 60
+        n_kills = int(os.environ.get("AMONTONS_KILLS", 3))
+        n_increments = 20 * (n_kills + 2)
         self.write_deck((LOADING, CHECKPOINTS % (n_increments, 1)))
         self.succeed("run", "deck.yaml", "--output", "whole")
         seed = random.randrange(10**6)
@@ -95,8 +96,13 @@ class Restart(CommandTest):
     def test_says_what_is_wrong(self):
         self.write_deck((LOADING, CHECKPOINTS % (2, 1)))
         self.succeed("run", "deck.yaml", "--output", "whole")
-        message = self.expect_error(2, "run", "deck.yaml", "--restart", "whole/checkpoint.cbor")
+        record = (self.folder / "whole" / "record.json").read_bytes()
+        message = self.expect_error(2, "run", "deck.yaml", "--output", "whole", "--restart", "whole/checkpoint.cbor")
         self.assertIn("set loading.end", message)
+        self.assertEqual((self.folder / "whole" / "record.json").read_bytes(), record, "nothing is lost")
+        message = self.expect_error(2, "run", "deck.yaml", "--restart", "whole/checkpoint.cbor",
+                                    "--set", "contact.0.discretization=mortar")
+        self.assertIn("of another problem", message)
         message = self.expect_error(2, "run", "deck.yaml", "--restart", "whole/checkpoint.cbor",
                                     "--set", "mesh.parameters.n=5")
         self.assertIn("of another problem", message)

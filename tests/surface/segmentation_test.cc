@@ -235,5 +235,23 @@ TEST(Segmentation, SegmentsMeetWhereRaysDo)
     }
   }
 }
+
+// A face at the end of a flat, its normals turned at one end only, before a target of one long segment.
+TEST(Segmentation, LongSegmentsAreSeenWhole)
+{
+  const FaceCoordinates impactor = segment({1, 0}, {0, 0});
+  const Vector3d middle = face_normal(impactor, {0, 0});
+  const double side = middle.y() > 0 ? 1 : -1;
+  for (const double angle : {-0.5, -0.2, -0.05, 0.05, 0.2, 0.5})
+    for (const int end : {0, 1})
+      for (const double length : {1.5, 10.0, 100.0, 2000.0})
+      {
+        std::array<Vector3d, 2> normals{middle, middle};
+        normals[end] = Eigen::AngleAxisd(angle, Vector3d::UnitZ()) * middle;
+        const FaceCoordinates target = segment({-length, 1e-3 * side}, {length, 1e-3 * side});
+        EXPECT_NEAR(overlap_of_segments(impactor, normals, target).size, 1, 1e-12)
+            << angle << ' ' << end << ' ' << length;
+      }
+}
 } // namespace
 } // namespace amontons::test

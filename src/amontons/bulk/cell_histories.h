@@ -11,6 +11,6 @@ struct CellHistories
 {
   std::vector<Index> cells;        ///< of the mesh
   std::vector<std::size_t> offset; ///< of each cell in values, and the end
-  std::vector<double> values;      ///< of each point ten: the plastic strain, column by column, the equivalent one
+  std::vector<double> values;      ///< of each point seven: the plastic strain, column by column, the equivalent one
 };
 } // namespace amontons

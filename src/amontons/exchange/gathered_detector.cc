@@ -60,6 +60,8 @@ const std::vector<MetPairing> &GatheredDetector::detect(std::span<const SharePos
   const Communicator &all = messages_.communicator();
   messages_.forget_traffic();
   report_ = {};
+  if (shares_.empty()) // on all processes alike
+    return met_;
   report_.distances.assign(shares_.size(), 0.0);
   std::vector<Message> in, out;
   agree_on_errors(all, [&] { out = send_to_hub(positions); });

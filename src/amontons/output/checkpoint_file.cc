@@ -86,7 +86,7 @@ static_assert(std::is_trivially_copyable_v<Counters>);
 
 Json to_json(const Checkpoint &checkpoint)
 {
-  Json out = {{"mesh_key", checkpoint.mesh_key},
+  Json out = {{"problem_key", checkpoint.problem_key},
               {"increment", checkpoint.increment},
               {"time", checkpoint.time},
               {"next_step", checkpoint.next_step},
@@ -107,7 +107,7 @@ Json to_json(const Checkpoint &checkpoint)
 Checkpoint to_checkpoint(const Json &from)
 {
   Checkpoint out;
-  from.at("mesh_key").get_to(out.mesh_key);
+  from.at("problem_key").get_to(out.problem_key);
   from.at("increment").get_to(out.increment);
   from.at("time").get_to(out.time);
   from.at("next_step").get_to(out.next_step);
@@ -153,7 +153,11 @@ SavedRun read_checkpoint(const std::filesystem::path &file)
       throw UserError("the checkpoint '" + file.string() + "' was written by another version of amontons");
     return {to_checkpoint(content.at("checkpoint")), content.at("record"), content.at("series")};
   }
-  catch (const Json::exception &)
+  catch (const UserError &)
+  {
+    throw;
+  }
+  catch (const std::exception &)
   {
     throw UserError("'" + file.string() + "' is no checkpoint: amontons writes them as " + checkpoint_file +
                     " where the deck says output: {checkpoint: n}");

@@ -19,7 +19,7 @@ bool is_result(const fs::path &file)
   const bool of_contact =
       name.starts_with("contact_") && (extension == ".csv" || extension == ".pvd" || extension == ".vtu");
   const bool of_bodies = name == "solution.pvd" || (name.starts_with("solution_") && extension == ".vtu");
-  return name == "record.json" || name == checkpoint_file || of_contact || of_bodies || name.ends_with(".part");
+  return name == "record.json" || of_contact || of_bodies || name.ends_with(".part");
 }
 
 void remove_results(const fs::path &folder)

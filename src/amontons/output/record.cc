@@ -84,10 +84,12 @@ void RunRecord::resume(Json earlier, int increment)
     if (earlier.contains(list))
       (*record_)[list] = std::move(earlier[list]);
   (*record_)["restarts"].push_back({{"after_increment", increment}});
+  waits_to_go_on_ = true;
 }
 
 void RunRecord::start(const SolutionState & /*initial*/, std::int64_t n_dofs)
 {
+  waits_to_go_on_ = false;
   (*record_)["n_dofs"] = n_dofs;
   write();
 }
@@ -134,6 +136,8 @@ void RunRecord::finish(const SolutionState & /*last*/, const Counters &counters,
 
 void RunRecord::fail(const std::string &cause)
 {
+  if (waits_to_go_on_)
+    return;
   (*record_)["status"] = "failed";
   (*record_)["failure"] = cause;
   write();

@@ -30,7 +30,8 @@ public:
   void finish(const SolutionState &last, const Counters &counters, const Timers &timers,
               const std::string &failure) override;
 
-  /// For a run that an exception ended: status "failed", with its cause.
+  /// For a run that an exception ended: status "failed", with its cause. A record that was to go on and did not yet
+  /// stays as it is.
   void fail(const std::string &cause);
 
 private:
@@ -39,5 +40,6 @@ private:
   const ResultFolder &folder_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::unique_ptr<nlohmann::ordered_json> record_;
+  bool waits_to_go_on_ = false;
 };
 } // namespace amontons

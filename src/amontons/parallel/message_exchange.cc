@@ -1,5 +1,8 @@
 #include "amontons/parallel/message_exchange.h"
 
+#include "amontons/base/error.h"
+#include "amontons/parallel/agreement.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -20,8 +23,21 @@ MPI_Comm duplicate(MPI_Comm communicator)
 
 int length(const Message &message)
 {
-  AMONTONS_ASSERT(message.bytes.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max()));
   return static_cast<int>(message.bytes.size());
+}
+
+// Before any is sent: who fails while others wait for its messages would leave them waiting.
+void check_lengths(const Communicator &all, std::span<const Message> out)
+{
+  agree_on_errors(all,
+                  [&]
+                  {
+                    for (const Message &message : out)
+                      if (message.bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+                        throw UserError("a message of " + std::to_string(message.bytes.size()) + " bytes to process " +
+                                        std::to_string(message.rank) +
+                                        ": at most 2 GB go at once; take more processes");
+                  });
 }
 
 Message receive(MPI_Message &handle, const MPI_Status &status)
@@ -75,6 +91,7 @@ void MessageExchange::count(const std::string &phase, const std::vector<Message>
 std::vector<Message> MessageExchange::exchange(const std::string &phase, std::vector<Message> out)
 {
   std::vector<Message> in = take_own(out, own_.rank());
+  check_lengths(own_, out);
   count(phase, out);
   const int tag = round_++ % 2;
   std::vector<MPI_Request> sends(out.size());
@@ -107,6 +124,7 @@ std::vector<Message> MessageExchange::exchange_with(const std::string &phase, st
                                                     std::span<const Rank> sources)
 {
   std::vector<Message> in = take_own(out, own_.rank());
+  check_lengths(own_, out);
   count(phase, out);
   std::vector<MPI_Request> sends(out.size());
   for (std::size_t i = 0; i < out.size(); ++i)

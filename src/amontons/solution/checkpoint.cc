@@ -14,6 +14,11 @@ public:
     for (const std::byte byte : std::as_bytes(values))
       value_ = (value_ ^ static_cast<std::uint64_t>(byte)) * 1099511628211U;
   }
+  template<class T>
+  void add_value(const T &value)
+  {
+    add(std::span<const T>(&value, 1));
+  }
   [[nodiscard]] std::uint64_t value() const { return value_; }
 
 private:
@@ -21,9 +26,21 @@ private:
 };
 } // namespace
 
-std::uint64_t mesh_key(const Mesh &mesh)
+std::uint64_t problem_key(const ProblemOptions &options, const Mesh &mesh)
 {
   Hash hash;
+  hash.add_value(options.mesh.kinematics);
+  hash.add_value(options.strain);
+  for (const BodyOptions &body : options.bodies)
+    hash.add_value(body.material.law);
+  for (const ContactOptions &contact : options.contact)
+  {
+    for (const std::string &name : {contact.name, contact.impactor, contact.target})
+      hash.add(std::span<const char>(name.c_str(), name.size() + 1));
+    hash.add_value(contact.tied);
+    hash.add_value(contact.initial_overlap);
+    hash.add_value(contact.discretization);
+  }
   hash.add(std::span<const double>(mesh.points));
   for (Index cell = 0; cell < mesh.cells.size(); ++cell)
     hash.add(std::span<const Index>(mesh.cells[cell]));

@@ -1,5 +1,6 @@
 #pragma once
 #include "amontons/solution/contact_interface.h"
+#include "amontons/solution/options.h"
 #include "amontons/solution/predictor.h"
 #include "amontons/solution/results.h"
 #include "amontons/solution/state.h"
@@ -14,7 +15,7 @@ namespace amontons
 /// as one that was never interrupted, to the tolerance of its solvers.
 struct Checkpoint
 {
-  std::uint64_t mesh_key = 0; ///< of the mesh it belongs to
+  std::uint64_t problem_key = 0; ///< of the problem it belongs to
   int increment = 0;
   double time = 0;
   double next_step = 0;   ///< length of the next increment
@@ -26,6 +27,7 @@ struct Checkpoint
   Counters counters;
 };
 
-/// The same for meshes whose points and cells are the same, bit by bit.
-std::uint64_t mesh_key(const Mesh &mesh);
+/// Tells problems apart whose checkpoints do not fit each other: by the mesh, bit by bit, kinematics and strain, the
+/// laws of bodies, the sides and kinds of contacts. Loads, constants, tolerances and solvers are not in it.
+std::uint64_t problem_key(const ProblemOptions &options, const Mesh &mesh);
 } // namespace amontons

@@ -316,6 +316,8 @@ void ContactInterface::set_history(const ContactHistory &history)
     throw UserError("the checkpoint holds another number of nodes of contact '" + options_.name + "'");
   status_ = history.status;
   total_slip_ = history.total_slip;
-  pairing_ = start_pairing_ = history.pairing;
+  if (!small_) // there pairs are those of the reference, for what the loads will move
+    pairing_ = history.pairing;
+  start_pairing_ = pairing_;
 }
 } // namespace amontons

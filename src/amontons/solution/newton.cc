@@ -280,7 +280,7 @@ NewtonOutcome Newton::solve(State &state, double from, double to)
     catch (const NumericalFailure &failure)
     {
       outcome.cause = failure.what();
-      outcome.linear_solver_failed = dynamic_cast<const LinearSolverFailure *>(&failure) != nullptr;
+      outcome.linear_solver_failed |= dynamic_cast<const LinearSolverFailure *>(&failure) != nullptr;
     }
   }
   return outcome;

@@ -70,8 +70,6 @@ public:
       for (const std::string &warning : initial_warnings(*model_))
         tell(&Observer::warning, warning);
     const LoadingOptions &loading = model_->options().loading;
-    const double first = loading.end / loading.increments;
-    const double least = loading.min_increment.value_or(default_min_increment * first);
     std::string failure;
     for (int cutbacks = 0; time_ < loading.end;)
     {
@@ -95,7 +93,7 @@ public:
         }
         ++cutbacks;
         step_ = cut_factor * length;
-        if (loading.fixed || step_ < least)
+        if (loading.fixed || step_ < least_step())
         {
           failure = "increment " + std::to_string(increment_ + 1) + " (t = " + std::to_string(time_) + " to " +
                     std::to_string(to) + "): " + outcome.cause;
@@ -131,13 +129,20 @@ private:
     return loading.max_increment.value_or(loading.end / loading.increments);
   }
 
+  [[nodiscard]] double least_step() const
+  {
+    const LoadingOptions &loading = model_->options().loading;
+    return loading.min_increment.value_or(default_min_increment * loading.end / loading.increments);
+  }
+
   void restore(const Checkpoint &from)
   {
-    if (from.mesh_key != mesh_key(model_->mesh()) || from.state.displacement.size() != state_.displacement.size() ||
+    if (from.problem_key != problem_key(model_->options(), model_->mesh()) ||
+        from.state.displacement.size() != state_.displacement.size() ||
         from.state.multipliers.size() != state_.multipliers.size() || from.state.rigid.size() != state_.rigid.size() ||
         from.contacts.size() != model_->contacts().size())
-      throw UserError(
-          "the checkpoint is of another problem: mesh, rigid bodies and contacts must be those of the deck");
+      throw UserError("the checkpoint is of another problem: mesh, kinds of bodies and contacts must be those "
+                      "of the deck");
     if (from.time >= model_->options().loading.end)
       throw UserError("the checkpoint is of t = " + std::to_string(from.time) +
                       ", the end of the run: for a longer "
@@ -145,7 +150,7 @@ private:
     state_ = start_ = from.state;
     time_ = from.time;
     increment_ = from.increment;
-    step_ = std::min(from.next_step, most_step());
+    step_ = model_->options().loading.fixed ? most_step() : std::clamp(from.next_step, least_step(), most_step());
     last_motion_ = from.last_motion;
     counters_ = from.counters;
     for (std::size_t c = 0; c < from.contacts.size(); ++c)
@@ -164,9 +169,16 @@ private:
       const auto scope = timers_.measure("output");
       if (!checkpoint)
       {
-        checkpoint = Checkpoint{
-            mesh_key(model_->mesh()),     increment_, time_, step_, last_motion_, state_, newton_->last_increment(), {},
-            model_->bodies().histories(), counters_};
+        checkpoint = Checkpoint{problem_key(model_->options(), model_->mesh()),
+                                increment_,
+                                time_,
+                                step_,
+                                last_motion_,
+                                state_,
+                                newton_->last_increment(),
+                                {},
+                                model_->bodies().histories(),
+                                counters_};
         for (const ContactInterface &contact : model_->contacts())
           checkpoint->contacts.push_back(contact.history());
       }

@@ -40,14 +40,15 @@ struct NormalField
   [[nodiscard]] Vector2d at(double xi) const { return x + xi * edge; }
   [[nodiscard]] Vector2d normal_at(double xi) const { return (normal + xi * turn).normalized(); }
 
-  /// xi with (x(xi) - y) x n(xi) = 0: of the two roots the one that stays where the normals become parallel.
+  /// xi with (x(xi) - y) x n(xi) = 0: of the two roots the one that stays where the normals become parallel. The other
+  /// one, where the normals would lie along the segment, may be the nearer for a point far off.
   [[nodiscard]] std::optional<double> project(const Vector2d &y) const
   {
     const double c = cross(x - y, normal), b = cross(edge, normal) + cross(x - y, turn), a = cross(edge, turn);
     const double discriminant = b * b - 4 * a * c;
     if (discriminant < 0)
       return {};
-    const double denominator = b + std::copysign(std::sqrt(discriminant), b);
+    const double denominator = b + std::copysign(std::sqrt(discriminant), cross(edge, normal));
     if (denominator == 0)
       return {};
     return -2 * c / denominator;
