@@ -34,12 +34,15 @@ class NotSolved(RuntimeError):
     """The program did not reach the end of a deck."""
 
 
+MOST_SHORT = 1.05  # a row that is short by more fails
+
+
 @dataclasses.dataclass
 class Row:
     """One figure held against its reference.
 
     error = |ours - reference| / scale; scale is |reference|, or 1 where that is zero. Judged against `tolerance`; a row that
-    misses it is `short` where the case states the `reason`, else it fails; a reference that is not known is nan. `runs`: the runs it stands on, for their
+    misses it is `short` where the case states the `reason` and it is off by no more than its scale, or `refused` by the program, else it fails; a reference that is not known is nan. `runs`: the runs it stands on, for their
     Newton iterations. `order`: of convergence with the cells' size, from `errors_by_size`.
     """
     quantity: str
@@ -50,6 +53,7 @@ class Row:
     runs: tuple = ()
     order: float = None
     reason: str = ""
+    refused: bool = False
 
     @property
     def error(self):
@@ -59,7 +63,9 @@ class Row:
     def verdict(self):
         if self.error <= self.tolerance:  # false where the error is not a number
             return "met"
-        return "short" if self.reason else "FAILED"
+        if self.refused or math.isnan(self.reference):
+            return "short"
+        return "short" if self.reason and self.error <= MOST_SHORT else "FAILED"
 
     def stored(self):
         """As it goes into the stored results: plain values."""

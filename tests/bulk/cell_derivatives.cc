@@ -177,23 +177,11 @@ template<class Cell>
 class CellDerivatives : public testing::Test, protected RandomCell<Cell>
 {
 protected:
-  static std::vector<bool> mean_dilatation()
-  {
-    return Cell::plane_stress ? std::vector<bool>{false} : std::vector<bool>{false, true};
-  }
   const ElasticModuli moduli_{1.3, 4.1};
   const CellTables<Cell> tables_;
 };
 
-using Cells = testing::Types<CellType<CellShape::triangle, Kinematics::plane_strain>,
-                             CellType<CellShape::triangle, Kinematics::plane_stress>,
-                             CellType<CellShape::triangle, Kinematics::axisymmetric>,
-                             CellType<CellShape::quadrilateral, Kinematics::plane_strain>,
-                             CellType<CellShape::quadrilateral, Kinematics::plane_stress>,
-                             CellType<CellShape::quadrilateral, Kinematics::axisymmetric>,
-                             CellType<CellShape::tetrahedron, Kinematics::three_dimensional>,
-                             CellType<CellShape::hexahedron, Kinematics::three_dimensional>>;
-TYPED_TEST_SUITE(CellDerivatives, Cells);
+TYPED_TEST_SUITE(CellDerivatives, AllCells);
 
 TYPED_TEST(CellDerivatives, ForceIsTheDerivativeOfTheEnergy)
 {

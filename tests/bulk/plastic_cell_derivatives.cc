@@ -141,23 +141,11 @@ protected:
       out.push_back(random_history(random));
     return out;
   }
-  static std::vector<bool> mean_dilatation()
-  {
-    return Cell::plane_stress ? std::vector<bool>{false} : std::vector<bool>{false, true};
-  }
   const ElasticModuli moduli_{0.4, 0.9};
   const CellTables<Cell> tables_;
 };
 
-using Cells = testing::Types<CellType<CellShape::triangle, Kinematics::plane_strain>,
-                             CellType<CellShape::triangle, Kinematics::plane_stress>,
-                             CellType<CellShape::triangle, Kinematics::axisymmetric>,
-                             CellType<CellShape::quadrilateral, Kinematics::plane_strain>,
-                             CellType<CellShape::quadrilateral, Kinematics::plane_stress>,
-                             CellType<CellShape::quadrilateral, Kinematics::axisymmetric>,
-                             CellType<CellShape::tetrahedron, Kinematics::three_dimensional>,
-                             CellType<CellShape::hexahedron, Kinematics::three_dimensional>>;
-TYPED_TEST_SUITE(PlasticCells, Cells);
+TYPED_TEST_SUITE(PlasticCells, AllCells);
 
 TYPED_TEST(PlasticCells, TangentIsTheDerivativeOfTheForce)
 {

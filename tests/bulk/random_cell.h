@@ -1,8 +1,11 @@
 #pragma once
 #include "amontons/bulk/cell_geometry.h"
 
+#include <gtest/gtest.h>
+
 #include <complex>
 #include <random>
+#include <vector>
 
 /// Cells of random shape and displacement, for derivatives by complex steps.
 namespace amontons
@@ -16,6 +19,10 @@ inline constexpr double corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1,
 template<class Cell>
 struct RandomCell
 {
+  static std::vector<bool> mean_dilatation()
+  {
+    return Cell::plane_stress ? std::vector<bool>{false} : std::vector<bool>{false, true};
+  }
   using NodalValues = typename Cell::template NodalValues<double>;
   using ComplexValues = typename Cell::template NodalValues<Complex>;
 
@@ -42,4 +49,14 @@ struct RandomCell
     return out;
   }
 };
+
+/// Every kind of small-strain cell.
+using AllCells = testing::Types<CellType<CellShape::triangle, Kinematics::plane_strain>,
+                                CellType<CellShape::triangle, Kinematics::plane_stress>,
+                                CellType<CellShape::triangle, Kinematics::axisymmetric>,
+                                CellType<CellShape::quadrilateral, Kinematics::plane_strain>,
+                                CellType<CellShape::quadrilateral, Kinematics::plane_stress>,
+                                CellType<CellShape::quadrilateral, Kinematics::axisymmetric>,
+                                CellType<CellShape::tetrahedron, Kinematics::three_dimensional>,
+                                CellType<CellShape::hexahedron, Kinematics::three_dimensional>>;
 } // namespace amontons

@@ -1,4 +1,4 @@
-#include "problem.h"
+#include "curved_slider.h"
 
 #include <gmock/gmock.h>
 
@@ -24,25 +24,8 @@ void make_plastic(BodyOptions &body, double isotropic, double kinematic)
 /// A curved elastic slider pressed into a plastic base so that part of the base yields.
 Problem pressed(int dim, int n, double mu, const std::string &approach)
 {
-  const auto at = [dim](double across, double up)
-  { return dim == 2 ? Point(across, up, 0) : Point(across, across, up); };
-  const auto curved = [dim](const Point &x)
-  {
-    Point out = x;
-    const double r2 = std::pow(x[0] - 1, 2) + (dim == 3 ? std::pow(x[1] - 1, 2) : 0);
-    out[dim - 1] += r2 / 8 * (1 - x[dim - 1]);
-    return out;
-  };
-  Blocks blocks(dim);
-  blocks.add("base", at(0, -1), dim == 2 ? Point(2, 1, 0) : Point(2, 2, 1), {2 * n, dim == 2 ? n : 2 * n, n});
-  blocks.add("slider", at(0.5, 0), Point::Ones(), {n + 1, n + 1, n + 1}, curved);
-  Problem problem(blocks, dim == 2 ? Kinematics::plane_strain : Kinematics::three_dimensional);
-  make_plastic(problem.elastic("base"), 0.05, 0.05);
-  problem.elastic("slider", 2, 0.25);
-  problem.contact("slider_bottom", "base_top", mu);
-  std::vector<int> all(dim);
-  std::iota(all.begin(), all.end(), 0);
-  problem.on("base_bottom").fix = all;
+  Problem problem = curved_slider(dim, n, mu);
+  make_plastic(problem.options.bodies[0], 0.05, 0.05);
   BoundaryOptions &top = problem.on("slider_top");
   top.displacement = {{0, expression("0")}, {dim - 1, expression(approach)}};
   if (dim == 3)

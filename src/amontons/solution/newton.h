@@ -84,7 +84,7 @@ private:
   ContactAssembly contacts_;
   FreeMotions free_motions_;
   Predictor predictor_;
-  double softness_;
+  const double softness_; ///< see linear_tolerance()
   double reach_ = 0;
   bool tangent_assembled_ = false;
   std::vector<double> residual_;

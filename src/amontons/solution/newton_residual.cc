@@ -1,3 +1,4 @@
+#include "amontons/base/hash.h"
 #include "amontons/solution/newton_iterate.h"
 
 namespace amontons
@@ -23,17 +24,15 @@ double resisted_force(std::span<const SubdomainMatrix> subdomains, std::span<con
   return std::sqrt(sum);
 }
 
-/// Identifies a set of statuses and faces (FNV-1a).
+/// Identifies a set of statuses and faces.
 std::uint64_t signature(std::span<const ContactStatus> statuses, std::span<const ContactInterface> contacts)
 {
-  std::uint64_t hash = 14695981039346656037ull;
-  const auto mix = [&](std::int64_t value) { hash = (hash ^ static_cast<std::uint64_t>(value)) * 1099511628211ull; };
-  for (const ContactStatus status : statuses)
-    mix(static_cast<std::int64_t>(status));
+  Hash hash;
+  hash.add(statuses);
   for (const ContactInterface &contact : contacts)
     for (const Pair &pair : contact.pairing())
-      mix(pair.face);
-  return hash;
+      hash.add(pair.face);
+  return hash.value();
 }
 } // namespace
 
