@@ -1,5 +1,6 @@
 #pragma once
 #include "amontons/base/ids.h"
+#include "amontons/parallel/sharing.h"
 
 #include <span>
 #include <vector>
@@ -15,18 +16,29 @@ struct Term
 
 /// Numbering of unknowns. A nodal component (node * n_components + component) is one unknown (a free node), none (held)
 /// or a combination (a node of a rigid body). Unknowns run: displacement unknowns, then multipliers.
+///
+/// Over several processes each has the nodes of its subdomains, and a layout of these. Nodes of constraints and of
+/// rigid bodies, their unknowns and the multipliers are on every process, with the same numbers: they come first.
 class Layout
 {
 public:
   Layout() = default;
   Layout(Index n_displacement_unknowns, Index n_multipliers, std::vector<Index> offsets, std::vector<Term> terms)
-    : n_displacement_unknowns_(n_displacement_unknowns)
+    : Layout(Sharing(n_displacement_unknowns), n_multipliers, std::move(offsets), std::move(terms))
+  {
+  }
+  /// @param sharing of the displacement unknowns
+  Layout(Sharing sharing, Index n_multipliers, std::vector<Index> offsets, std::vector<Term> terms)
+    : sharing_(std::move(sharing))
+    , n_displacement_unknowns_(sharing_.size())
     , n_multipliers_(n_multipliers)
     , offsets_(std::move(offsets))
     , terms_(std::move(terms))
   {
   }
 
+  /// Of the displacement unknowns.
+  [[nodiscard]] const Sharing &sharing() const { return sharing_; }
   [[nodiscard]] Index n_nodal() const { return static_cast<Index>(offsets_.size()) - 1; }
   [[nodiscard]] Index n_displacement_unknowns() const { return n_displacement_unknowns_; }
   [[nodiscard]] Index n_multipliers() const { return n_multipliers_; }
@@ -52,6 +64,7 @@ public:
   }
 
 private:
+  Sharing sharing_;
   Index n_displacement_unknowns_ = 0;
   Index n_multipliers_ = 0;
   std::vector<Index> offsets_{0}; ///< [n_nodal + 1]

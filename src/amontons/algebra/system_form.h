@@ -49,6 +49,10 @@ struct FormCounters
 ///
 /// Order of calls: set_constraints and set_held_modes when they change; prepare(); the values that changed since (all
 /// of them after prepare() returned true); solve(). Collective.
+///
+/// Over several processes (Layout) each gives the stiffness of its own subdomains, their sum being K; constraints,
+/// dense blocks and their values are given by all, the same on all; held modes by each over the unknowns it has. A
+/// right side has its whole value on every copy of an unknown, a solution the same, bit by bit.
 class SystemForm
 {
 public:
