@@ -109,6 +109,32 @@ TEST_F(SharedItems, DotCountsEachItemOnce)
   EXPECT_TRUE(sharing.true_on_all(true));
 }
 
+TEST_F(SharedItems, NeighboursListTheSameItemsInTheSameOrder)
+{
+  const Sharing sharing(messages_, "test", ids_);
+  const Rank rank = messages_->communicator().rank();
+  ASSERT_EQ(sharing.neighbours().size(), 2U);
+  for (const Sharing::Neighbour &neighbour : sharing.neighbours())
+  {
+    std::vector<GlobalIndex> common;
+    for (const Index item : neighbour.items)
+      common.push_back(ids_[item]);
+    const Rank third = 3 - rank - neighbour.rank;
+    const std::vector<std::vector<GlobalIndex>> expected{{100, 102}, {100, 101}, {100}};
+    EXPECT_EQ(common, expected[third]);
+  }
+}
+
+TEST_F(SharedItems, TrafficIsCountedUnderTheNamedPhase)
+{
+  const Sharing sharing = Sharing(messages_, "test", ids_).counted_as("other");
+  messages_->forget_traffic();
+  std::vector<double> values(ids_.size(), 1.0);
+  sharing.sum(values);
+  EXPECT_EQ(messages_->traffic().size(), 1U);
+  EXPECT_EQ(messages_->traffic().at("other").messages, 2);
+}
+
 TEST(Sharing, OfOneProcessSendsNothing)
 {
   const auto alone = std::make_shared<MessageExchange>(Communicator(MPI_COMM_SELF));

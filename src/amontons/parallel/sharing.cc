@@ -129,6 +129,13 @@ void Sharing::number_items(std::span<const GlobalIndex> ids)
   numbers_.assign(numbers.begin(), numbers.end());
 }
 
+Sharing Sharing::counted_as(std::string phase) const
+{
+  Sharing out = *this;
+  out.phase_ = std::move(phase);
+  return out;
+}
+
 std::vector<Message> Sharing::swap(std::span<const double> values, int width) const
 {
   AMONTONS_ASSERT(values.size() == static_cast<std::size_t>(n_) * width);

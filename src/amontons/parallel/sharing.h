@@ -17,6 +17,13 @@ namespace amontons
 class Sharing
 {
 public:
+  /// Another process with copies of items that are here too.
+  struct Neighbour
+  {
+    Rank rank;
+    std::vector<Index> items; ///< that both have, by increasing id
+  };
+
   explicit Sharing(Index n = 0)
     : n_(n)
     , n_own_(n)
@@ -47,6 +54,10 @@ public:
   [[nodiscard]] GlobalIndex first_own_number() const { return first_own_; }
   /// Number of processes that have a copy.
   [[nodiscard]] int n_copies(Index i) const { return n_copies_.empty() ? 1 : n_copies_[i]; }
+  /// By rank.
+  [[nodiscard]] std::span<const Neighbour> neighbours() const { return neighbours_; }
+  /// The same, its traffic counted under another phase.
+  [[nodiscard]] Sharing counted_as(std::string phase) const;
 
   /// Each copy becomes the sum of all: added in the order of ranks, so that copies stay equal bit by bit. Collective.
   void sum(std::span<double> values, int width = 1) const;
@@ -65,11 +76,6 @@ public:
   [[nodiscard]] bool true_on_all(bool value) const;
 
 private:
-  struct Neighbour
-  {
-    Rank rank;
-    std::vector<Index> items; ///< that both have, by increasing id
-  };
   void find_copies(std::span<const GlobalIndex> ids, std::span<const char> preferred);
   void number_items(std::span<const GlobalIndex> ids);
   template<class Combine>
@@ -84,7 +90,7 @@ private:
   std::vector<int> n_copies_;
   std::vector<GlobalIndex> numbers_;
   GlobalIndex n_global_ = 0, first_own_ = 0;
-  std::vector<Neighbour> neighbours_; ///< by rank
+  std::vector<Neighbour> neighbours_;
   std::vector<Rank> neighbour_ranks_;
   std::vector<Index> shared_; ///< items with copies elsewhere
 };
