@@ -1,0 +1,252 @@
+#pragma once
+#include "amontons/algebra/system_form.h"
+#include "lattice_problem.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+
+namespace amontons::test
+{
+/// What a process has of a problem: some of its subdomains with their nodes, the nodes of constraints and of the rigid
+/// body on every process, first and in the same order.
+struct ProblemPart : FormProblem
+{
+  std::vector<Index> nodes;    ///< [n_nodes] node of the whole
+  std::vector<Index> unknowns; ///< [n_unknowns] unknown of the whole, multipliers too
+
+  [[nodiscard]] std::vector<double> of(const std::vector<double> &whole) const
+  {
+    std::vector<double> out;
+    for (Index i = 0; i < layout.n_unknowns(); ++i)
+      out.push_back(whole[unknowns[i]]);
+    return out;
+  }
+};
+
+/// How subdomains are dealt out.
+enum class Deal
+{
+  even,      ///< as many to each, neighbours together
+  in_turn,   ///< neighbours apart
+  last_only, ///< all to the last process
+};
+
+inline Rank rank_of_subdomain(Deal deal, std::size_t subdomain, std::size_t n_subdomains, int n_processes)
+{
+  return static_cast<Rank>(deal == Deal::even      ? subdomain * n_processes / n_subdomains
+                           : deal == Deal::in_turn ? subdomain % n_processes
+                                                   : n_processes - 1);
+}
+
+/// Collective. Whoever has a subdomain with a node prefers to own its unknowns.
+class Division
+{
+public:
+  Division(const FormProblem &whole, std::shared_ptr<MessageExchange> messages, Deal deal)
+    : whole_(whole)
+    , local_of_(static_cast<std::size_t>(whole.n_nodes()), -1)
+    , touched_(static_cast<std::size_t>(whole.n_nodes()), 0)
+  {
+    part_.dim = whole.dim;
+    part_.n_rigid = whole.n_rigid;
+    const Communicator &all = messages->communicator();
+    for (std::size_t s = 0; s < whole.subdomains.size(); ++s)
+      if (rank_of_subdomain(deal, s, whole.subdomains.size(), all.size()) == all.rank())
+        part_.subdomains.push_back(whole.subdomains[s]);
+    number_nodes();
+    number_unknowns(std::move(messages));
+  }
+  [[nodiscard]] ProblemPart take() { return std::move(part_); }
+
+private:
+  void add_node(Index node)
+  {
+    if (local_of_[node] >= 0)
+      return;
+    local_of_[node] = static_cast<Index>(part_.nodes.size());
+    part_.nodes.push_back(node);
+    for (int c = 0; c < whole_.dim; ++c)
+      part_.points.push_back(whole_.points[node * whole_.dim + c]);
+  }
+  [[nodiscard]] bool is_rigid(Index node) const
+  {
+    for (int c = 0; c < whole_.dim; ++c)
+      for (const Term &term : whole_.layout.terms(node * whole_.dim + c))
+        if (term.unknown < whole_.n_rigid)
+          return true;
+    return false;
+  }
+
+  void number_nodes()
+  {
+    const int dim = whole_.dim;
+    std::vector<char> everywhere(static_cast<std::size_t>(whole_.n_nodes()), 0);
+    for (const Index node : whole_.contact_nodes)
+      everywhere[node] = 1;
+    for (const ConstraintPattern &pattern : whole_.patterns)
+      for (const Index nodal : pattern.nodal)
+        everywhere[nodal / dim] = 1;
+    for (Index node = 0; node < whole_.n_nodes(); ++node)
+      if (everywhere[node] != 0 || is_rigid(node))
+        add_node(node);
+    for (SubdomainMatrix &matrix : part_.subdomains)
+      for (Index &node : matrix.nodes)
+      {
+        touched_[node] = 1;
+        add_node(node);
+        node = local_of_[node];
+      }
+    for (const Index node : whole_.contact_nodes)
+      part_.contact_nodes.push_back(local_of_[node]);
+    part_.patterns = whole_.patterns;
+    for (ConstraintPattern &pattern : part_.patterns)
+      for (Index &nodal : pattern.nodal)
+        nodal = local_of_[nodal / dim] * dim + nodal % dim;
+  }
+
+  void number_unknowns(std::shared_ptr<MessageExchange> messages)
+  {
+    const int dim = whole_.dim;
+    std::vector<Index> offsets{0};
+    std::vector<Term> terms;
+    std::vector<GlobalIndex> ids;
+    std::vector<char> preferred(static_cast<std::size_t>(whole_.n_rigid), 0);
+    for (Index unknown = 0; unknown < whole_.n_rigid; ++unknown)
+      ids.push_back(unknown);
+    for (const Index node : part_.nodes)
+      for (int c = 0; c < dim; ++c)
+      {
+        for (const Term &term : whole_.layout.terms(node * dim + c))
+        {
+          const bool rigid = term.unknown < whole_.n_rigid;
+          terms.push_back({rigid ? term.unknown : static_cast<Index>(ids.size()), term.coefficient});
+          if (rigid)
+            continue;
+          ids.push_back(term.unknown);
+          preferred.push_back(touched_[node]);
+        }
+        offsets.push_back(static_cast<Index>(terms.size()));
+      }
+    part_.unknowns.assign(ids.begin(), ids.end());
+    for (Index m = 0; m < whole_.layout.n_multipliers(); ++m)
+      part_.unknowns.push_back(whole_.layout.multiplier(m));
+    part_.layout = {Sharing(std::move(messages), "unknowns", ids, preferred), whole_.layout.n_multipliers(),
+                    std::move(offsets), std::move(terms)};
+  }
+
+  const FormProblem &whole_;
+  ProblemPart part_;
+  std::vector<Index> local_of_; ///< by node of the whole
+  std::vector<char> touched_;   ///< by node of the whole: whether a subdomain of this process has it
+};
+
+/// A form of the whole problem on this process alone, and one of its part of the divided problem: they are given the
+/// same and must answer the same.
+class DividedForm
+{
+public:
+  using Maker = std::function<std::unique_ptr<SystemForm>(const FormProblem &)>;
+
+  /// Collective. @param whole must stay, as `part`'s spans are taken
+  DividedForm(const FormProblem &whole, Deal deal, const Maker &make_reference, const Maker &make_divided)
+    : messages_(std::make_shared<MessageExchange>(Communicator(MPI_COMM_WORLD)))
+    , part_(Division(whole, messages_, deal).take())
+    , reference_(make_reference(whole))
+    , divided_(make_divided(part_))
+  {
+    reference_->set_constraints(whole.patterns, {rigid_unknowns()});
+    divided_->set_constraints(part_.patterns, {rigid_unknowns()});
+    prepare();
+  }
+
+  [[nodiscard]] const ProblemPart &part() const { return part_; }
+  [[nodiscard]] ProblemPart &part() { return part_; }
+  [[nodiscard]] SystemForm &divided() { return *divided_; }
+
+  void prepare()
+  {
+    for (SystemForm *form : forms())
+    {
+      form->prepare();
+      form->update_subdomains();
+    }
+    const Index n = part_.n_rigid;
+    update_rigid_springs(Eigen::MatrixXd::Constant(n, n, 0.3) + 5 * Eigen::MatrixXd::Identity(n, n));
+  }
+  void update_rigid_springs(const Eigen::MatrixXd &springs)
+  {
+    for (SystemForm *form : forms())
+      form->update_dense_block(0, springs);
+  }
+  void update_constraint(std::size_t k, const ElementBlocks &blocks)
+  {
+    for (SystemForm *form : forms())
+      form->update_constraint(k, blocks.values());
+  }
+  /// @param modes over the displacement unknowns of the whole
+  void set_held_modes(const std::vector<std::vector<double>> &modes)
+  {
+    std::vector<std::vector<double>> of_part;
+    for (const auto &mode : modes)
+    {
+      of_part.emplace_back();
+      for (Index i = 0; i < part_.layout.n_displacement_unknowns(); ++i)
+        of_part.back().push_back(mode[part_.unknowns[i]]);
+    }
+    EXPECT_TRUE(reference_->set_held_modes(modes));
+    EXPECT_TRUE(divided_->set_held_modes(of_part));
+    prepare();
+  }
+
+  /// The greatest difference of the divided form's solution from the reference's, over the latter's length; it must be
+  /// the same on all copies. Collective.
+  double difference(const std::vector<double> &rhs, double tolerance)
+  {
+    std::vector<double> expected(rhs.size()), x(part_.unknowns.size());
+    reference_->factorize();
+    reference_->solve(rhs, expected, tolerance);
+    divided_->factorize();
+    divided_->solve(part_.of(rhs), x, tolerance);
+    expect_equal_copies(x);
+    const std::vector<double> expected_here = part_.of(expected);
+    double worst = 0, size = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      worst = std::max(worst, std::isfinite(x[i]) ? std::abs(x[i] - expected_here[i]) : HUGE_VAL);
+    for (const double value : expected)
+      size += value * value;
+    EXPECT_EQ(divided_->mode_reactions().size(), reference_->mode_reactions().size());
+    for (std::size_t m = 0; m < reference_->mode_reactions().size(); ++m)
+      worst = std::max(worst, std::abs(divided_->mode_reactions()[m] - reference_->mode_reactions()[m]));
+    return part_.layout.sharing().maximum_over_processes(worst) / std::sqrt(size);
+  }
+
+private:
+  [[nodiscard]] std::array<SystemForm *, 2> forms() const { return {reference_.get(), divided_.get()}; }
+  [[nodiscard]] std::vector<Index> rigid_unknowns() const
+  {
+    std::vector<Index> out;
+    for (Index i = 0; i < part_.n_rigid; ++i)
+      out.push_back(i);
+    return out;
+  }
+  /// Bit by bit. Multipliers are the same everywhere.
+  void expect_equal_copies(const std::vector<double> &x) const
+  {
+    const Sharing &sharing = part_.layout.sharing();
+    const auto n = static_cast<std::ptrdiff_t>(sharing.size());
+    std::vector<double> owners(x.begin(), x.begin() + n), multipliers(x.begin() + n, x.end());
+    sharing.take_owners(owners);
+    EXPECT_TRUE(std::equal(owners.begin(), owners.end(), x.begin())) << "copies of unknowns differ";
+    multipliers.insert(multipliers.end(), divided_->mode_reactions().begin(), divided_->mode_reactions().end());
+    std::vector<double> greatest = multipliers;
+    sharing.maximum_over_processes(greatest);
+    EXPECT_EQ(greatest, multipliers) << "copies of multipliers differ";
+  }
+
+  std::shared_ptr<MessageExchange> messages_;
+  ProblemPart part_;
+  std::unique_ptr<SystemForm> reference_, divided_;
+};
+} // namespace amontons::test
