@@ -79,7 +79,7 @@ TEST(Counters, FetiFactorisesEachSubdomainOnce)
     const Record run = solve_by(problem, LinearSolverType::feti);
     ProblemOptions options = problem.options;
     options.solver.linear = LinearSolverType::feti;
-    const std::vector<Index> subdomain = make_partition(options, run.mesh);
+    const std::vector<Index> subdomain = make_partition(options, run.mesh, 1);
     const Index n_subdomains = 1 + *std::max_element(subdomain.begin(), subdomain.end());
     EXPECT_GT(n_subdomains, 3);
     EXPECT_EQ(run.counters.n_factorizations, n_subdomains);

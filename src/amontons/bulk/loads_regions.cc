@@ -164,7 +164,7 @@ std::vector<Index> LoadRegions::points(const BoundaryOptions &entry) const
                                      "' is a deformable body: use traction on its boundary, or body_force");
   const Group &group = find_group(mesh_, entry.region, 0, entry.where);
   const auto cells_of_node = deformable_cells_of(group);
-  std::vector<Index> nodes = group.entities.nodes;
+  std::vector<Index> nodes = group.entities.nodes; // those of other processes bear their forces there
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   for (const Index node : nodes)

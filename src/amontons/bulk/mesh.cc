@@ -2,6 +2,9 @@
 
 #include "amontons/base/suggestion.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace amontons
 {
 namespace
@@ -43,6 +46,25 @@ std::string dimension_word(int dim)
 {
   static const std::vector<std::string> words{"points", "curves", "surfaces", "volumes"};
   return words.at(static_cast<std::size_t>(dim));
+}
+
+std::vector<Index> Group::nodes() const
+{
+  std::vector<Index> out = entities.nodes;
+  out.insert(out.end(), other_nodes.begin(), other_nodes.end());
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+void number_whole(Mesh &mesh)
+{
+  mesh.n_global_nodes = mesh.n_nodes();
+  mesh.n_global_cells = mesh.cells.size();
+  mesh.node_ids.resize(static_cast<std::size_t>(mesh.n_global_nodes));
+  mesh.cell_ids.resize(static_cast<std::size_t>(mesh.n_global_cells));
+  std::iota(mesh.node_ids.begin(), mesh.node_ids.end(), 0);
+  std::iota(mesh.cell_ids.begin(), mesh.cell_ids.end(), 0);
 }
 
 const Group &find_group(const Mesh &mesh, const std::string &name, int dim, const SourceLocation &where)

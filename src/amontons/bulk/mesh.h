@@ -47,13 +47,18 @@ std::string dimension_word(int dim);
 /// A physical group of the mesh file.
 struct Group
 {
-  int dim = 0;              ///< 0 points, 1 curves, 2 surfaces, 3 volumes
-  Connectivity entities;    ///< cells, facets, edges or points of the group
-  std::vector<Index> cells; ///< for dim == Mesh::dim: positions in Mesh::cells, in the order of `entities`
+  int dim = 0;                    ///< 0 points, 1 curves, 2 surfaces, 3 volumes
+  Connectivity entities;          ///< cells, facets, edges or points of the group
+  std::vector<Index> cells;       ///< for dim == Mesh::dim: positions in Mesh::cells, in the order of `entities`
+  std::vector<Index> other_nodes; ///< nodes of entities that other processes have
+
+  /// Its nodes that are in the mesh, each once, in the order of the mesh.
+  [[nodiscard]] std::vector<Index> nodes() const;
 };
 
-/// The mesh as read: one process, degree 1, right-handed cells. Only nodes of some cell or named group are kept, by
-/// increasing tag; cells are those of the named groups of dimension `dim`, each once.
+/// The mesh, or what a process has of it (mesh_distribution.h): degree 1, right-handed cells. Of the mesh as read only
+/// nodes of some cell or named group are kept, by increasing tag; cells are those of the named groups of dimension
+/// `dim`, each once.
 struct Mesh
 {
   int dim = 2;
@@ -63,9 +68,15 @@ struct Mesh
   std::vector<GlobalIndex> cell_tags; ///< [n_cells]
   std::map<std::string, Group> groups;
   std::string file;
+  std::vector<GlobalIndex> node_ids; ///< [n_nodes], positions in the whole mesh
+  std::vector<GlobalIndex> cell_ids; ///< [n_cells], the same
+  GlobalIndex n_global_nodes = 0, n_global_cells = 0;
 
   [[nodiscard]] Index n_nodes() const { return static_cast<Index>(node_tags.size()); }
 };
+
+/// The mesh is the whole. Makes its ids.
+void number_whole(Mesh &mesh);
 
 /// Reads a .msh (2.2 or 4.1, ASCII or binary) or meshes a .geo with the given parameters, then refines: each cell into
 /// 2^dim of its shape; new nodes lie on the curved geometry of a .geo, midway between the old ones of a .msh.

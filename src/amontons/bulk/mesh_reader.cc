@@ -216,6 +216,7 @@ Mesh read_mesh(const MeshOptions &options)
   if (!is_geometry(options))
     for (int i = 0; i < options.refine; ++i)
       refine_uniformly(mesh);
+  number_whole(mesh);
   return mesh;
 }
 } // namespace amontons

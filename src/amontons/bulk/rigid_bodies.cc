@@ -16,14 +16,6 @@ Eigen::Vector3d point_of(const Mesh &mesh, Index node)
   return x;
 }
 
-std::vector<Index> nodes_of_group(const Group &group)
-{
-  std::vector<Index> nodes = group.entities.nodes;
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
-}
-
 Eigen::Matrix3d rotation_matrix(const Eigen::Vector3d &vector)
 {
   const double angle = vector.norm();
@@ -64,7 +56,7 @@ RigidBodies::RigidBodies(const Mesh &mesh, Kinematics kinematics, Strain strain,
     }
     else
     {
-      body.nodes = nodes_of_group(find_group(mesh, bodies[i].region, -1, bodies[i].where));
+      body.nodes = find_group(mesh, bodies[i].region, -1, bodies[i].where).nodes();
       for (const Index node : body.nodes)
         body.point += point_of(mesh, node) / static_cast<double>(body.nodes.size());
     }

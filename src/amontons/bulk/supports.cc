@@ -64,10 +64,7 @@ void Supports::add_entry(int entry, const BoundaryOptions &options, const Group 
     components.emplace_back(component, static_cast<int>(functions_.size()));
     functions_.emplace_back(expression);
   }
-  std::vector<Index> nodes = group.entities.nodes;
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  for (const Index node : nodes)
+  for (const Index node : group.nodes())
   {
     if (is_rigid[node])
       throw UserError(options.where, "region '" + options.region +

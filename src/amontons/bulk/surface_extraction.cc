@@ -59,9 +59,7 @@ public:
   explicit SurfaceBuilder(const Mesh &mesh, const Group &group)
     : mesh_(mesh)
   {
-    nodes_ = group.entities.nodes;
-    std::sort(nodes_.begin(), nodes_.end());
-    nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+    nodes_ = group.nodes();
     surface_.dim = mesh.dim;
     surface_.node_ids.assign(nodes_.begin(), nodes_.end());
     for (const Index node : nodes_)

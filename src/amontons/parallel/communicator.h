@@ -16,6 +16,9 @@ public:
   {
   }
 
+  /// The calling process alone.
+  [[nodiscard]] static Communicator alone() { return Communicator(MPI_COMM_SELF); }
+
   [[nodiscard]] Rank rank() const;
   [[nodiscard]] int size() const;
   [[nodiscard]] bool is_root() const { return rank() == 0; }

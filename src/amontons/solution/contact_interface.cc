@@ -22,18 +22,30 @@ constexpr double sharp_angle = 3.14159265358979323846 / 6;
 
 } // namespace
 
+std::vector<Surface> contact_sides(const Mesh &mesh, const ContactOptions &options,
+                                   const std::vector<BodyOptions> &bodies)
+{
+  std::vector<Surface> sides{extract_surface(mesh, options.impactor, options.where)};
+  if (options.is_self_contact())
+    sides[0].face_bodies = bodies_of_faces(mesh, sides[0]);
+  else if (std::none_of(bodies.begin(), bodies.end(),
+                        [&](const BodyOptions &body) { return body.shape && body.name == options.target; }))
+  {
+    sides.push_back(extract_surface(mesh, options.target, options.where));
+    check_not_welded(mesh, sides[0], sides[1], options.impactor, options.target, options.where);
+  }
+  return sides;
+}
+
 ContactInterface::ContactInterface(const Mesh &mesh, Kinematics kinematics, Strain strain,
-                                   const ContactOptions &options, const DetectionOptions &detection,
-                                   const RigidBody *analytic_target)
+                                   const ContactOptions &options, const DetectionOptions &detection, Surface impactor,
+                                   std::optional<Surface> target, const RigidBody *analytic_target)
   : mesh_(mesh)
   , dim_(mesh.dim)
   , axisymmetric_(kinematics == Kinematics::axisymmetric)
   , small_(strain == Strain::small)
   , options_(options)
 {
-  Surface impactor = extract_surface(mesh, options.impactor, options.where);
-  if (options.is_self_contact())
-    impactor.face_bodies = bodies_of_faces(mesh, impactor);
   impactor_ = std::make_shared<const Surface>(std::move(impactor));
   areas_ = tributary_areas(*impactor_, axisymmetric_);
   if (analytic_target)
@@ -48,8 +60,7 @@ ContactInterface::ContactInterface(const Mesh &mesh, Kinematics kinematics, Stra
   }
   else
   {
-    target_ = std::make_shared<const Surface>(extract_surface(mesh, options.target, options.where));
-    check_not_welded(mesh, *impactor_, *target_, options.impactor, options.target, options.where);
+    target_ = std::make_shared<const Surface>(std::move(target.value()));
     if (is_mortar())
       mortar_distance_ = detection.distance;
     else

@@ -23,14 +23,21 @@ struct ContactHistory
   std::vector<double> total_slip; ///< as ContactResult::slip
 };
 
+/// The meshed sides of a contact: the impactor, then the target, if that is another surface of the mesh.
+/// @throws UserError as extract_surface() and check_not_welded()
+std::vector<Surface> contact_sides(const Mesh &mesh, const ContactOptions &options,
+                                   const std::vector<BodyOptions> &bodies);
+
 /// One contact of the deck: its surfaces, its pairing and the history of its nodes.
 ///
 /// Displacements are nodal vectors [n_nodal] as in State; `start` is the one at the beginning of the increment.
 class ContactInterface
 {
 public:
+  /// @param impactor, target as from contact_sides(); no target in self-contact and where it is analytic
   ContactInterface(const Mesh &mesh, Kinematics kinematics, Strain strain, const ContactOptions &options,
-                   const DetectionOptions &detection, const RigidBody *analytic_target);
+                   const DetectionOptions &detection, Surface impactor, std::optional<Surface> target,
+                   const RigidBody *analytic_target);
 
   [[nodiscard]] const ContactOptions &options() const { return options_; }
   [[nodiscard]] const Surface &impactor() const { return *impactor_; }

@@ -41,7 +41,7 @@ std::vector<double> reference_places(const Model &model)
 }
 /// 3D displacements from which multigrid is faster than a factorisation (docs/decisions/0011), and subdomains are
 /// faster than both (0012), as measured.
-constexpr Index amg_from = 15000, feti_from = 40000;
+constexpr GlobalIndex amg_from = 15000, feti_from = 40000;
 
 /// Whether the stiffness stays as it is for the whole run, so that subdomains are factorised once.
 bool has_constant_stiffness(const ProblemOptions &options)
@@ -67,7 +67,7 @@ std::vector<LinearSolverType> linear_solvers(const ProblemOptions &options, cons
                     "compressed subdomain is not positive; take 'amg' or 'direct'");
   if (linear != automatic)
     return {linear};
-  const Index n_displacements = mesh.n_nodes() * mesh.dim;
+  const GlobalIndex n_displacements = mesh.n_global_nodes * mesh.dim;
   if (coupled || mesh.dim == 2 || n_displacements <= amg_from)
     return {direct};
   if (n_displacements > feti_from && has_constant_stiffness(options))
@@ -75,11 +75,18 @@ std::vector<LinearSolverType> linear_solvers(const ProblemOptions &options, cons
   return {amg, direct};
 }
 
-std::vector<Index> make_partition(const ProblemOptions &options, const Mesh &mesh)
+std::vector<Index> make_partition(const ProblemOptions &options, const Mesh &mesh, int n_processes)
 {
   if (linear_solvers(options, mesh).front() != LinearSolverType::feti)
     return {};
-  return partition_cells(mesh, options.bodies, subdomain_size(mesh.dim));
+  std::vector<Index> out;
+  for (int size = subdomain_size(mesh.dim); size > mesh.dim; size /= 2)
+  {
+    out = partition_cells(mesh, options.bodies, size);
+    if (*std::max_element(out.begin(), out.end()) + 1 >= n_processes)
+      break;
+  }
+  return out;
 }
 
 std::unique_ptr<SystemForm> make_form(const Model &model, LinearSolverType linear)

@@ -15,6 +15,7 @@ std::vector<LinearSolverType> linear_solvers(const ProblemOptions &options, cons
 /// @param linear one of linear_solvers()
 std::unique_ptr<SystemForm> make_form(const Model &model, LinearSolverType linear);
 
-/// The subdomain of each cell that the first of linear_solvers() wants, or nothing where one subdomain will do.
-std::vector<Index> make_partition(const ProblemOptions &options, const Mesh &mesh);
+/// The subdomain of each cell of the whole mesh that the first of linear_solvers() wants, at least as many as there are
+/// processes; or nothing where one subdomain to a process will do. Local.
+std::vector<Index> make_partition(const ProblemOptions &options, const Mesh &mesh, int n_processes);
 } // namespace amontons

@@ -1,13 +1,11 @@
 #include "amontons/solution/free_motions.h"
 
-#include "amontons/base/disjoint_sets.h"
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <sstream>
 
 namespace amontons
@@ -41,66 +39,8 @@ FreeMotions::FreeMotions(const Model &model)
   if (modes_.empty())
     return;
   add_supports(support_gram_);
+  model_.nodes().sum_over_processes({support_gram_.data(), static_cast<std::size_t>(support_gram_.size())});
   any_ = null_space(support_gram_).cols() > 0;
-}
-
-void FreeMotions::find_parts()
-{
-  const Mesh &mesh = model_.mesh();
-  const auto n = model_.rigid_of_node().size();
-  std::vector<int> parent(n);
-  std::iota(parent.begin(), parent.end(), 0);
-  std::vector<int> body_of_node(n, -1);
-  const auto body_of_cell = model_.bodies().body_of_cell();
-  for (Index cell = 0; cell < mesh.cells.size(); ++cell)
-  {
-    const int body = body_of_cell[cell];
-    if (body < 0 || model_.options().bodies[body].material.law == MaterialLaw::rigid)
-      continue;
-    for (const Index node : mesh.cells[cell])
-    {
-      parent[find_root(parent, node)] = find_root(parent, mesh.cells[cell][0]);
-      body_of_node[node] = body;
-    }
-  }
-  const auto rigid = model_.rigid().bodies();
-  for (const RigidBody &body : rigid)
-  {
-    const auto is_free = [](const RigidComponent &c) { return c.kind == RigidComponent::Kind::free; };
-    if (std::none_of(body.translation.begin(), body.translation.end(), is_free) &&
-        std::none_of(body.rotation.begin(), body.rotation.end(), is_free))
-      continue;
-    for (const Index node : body.nodes)
-    {
-      parent[find_root(parent, node)] = find_root(parent, body.nodes[0]);
-      body_of_node[node] = body.option;
-    }
-  }
-  part_of_node_.assign(n, -1);
-  std::vector<int> part_of_root(n, -1);
-  std::vector<Eigen::Vector3d> low, high;
-  for (std::size_t node = 0; node < n; ++node)
-  {
-    if (body_of_node[node] < 0)
-      continue;
-    int &part = part_of_root[find_root(parent, static_cast<int>(node))];
-    const Eigen::Vector3d x = model_.reference(static_cast<Index>(node));
-    if (part < 0)
-    {
-      part = static_cast<int>(body_of_part_.size());
-      body_of_part_.push_back(body_of_node[node]);
-      low.push_back(x);
-      high.push_back(x);
-    }
-    part_of_node_[node] = part;
-    low[part] = low[part].cwiseMin(x);
-    high[part] = high[part].cwiseMax(x);
-  }
-  for (std::size_t p = 0; p < low.size(); ++p)
-  {
-    center_.push_back(0.5 * (low[p] + high[p]));
-    size_.push_back(std::max((high[p] - low[p]).norm(), 1e-300));
-  }
 }
 
 void FreeMotions::make_modes()
@@ -177,12 +117,13 @@ void FreeMotions::add_supports(Eigen::MatrixXd &gram) const
     gram += row * row.transpose();
   };
   for (const HeldComponent &held : model_.supports().held())
-    hold(held.nodal / dim, held.nodal % dim);
+    if (model_.nodes().is_own(held.nodal / dim))
+      hold(held.nodal / dim, held.nodal % dim);
   // Nodes shared with a rigid body that does not move.
   const auto &rigid_of_node = model_.rigid_of_node();
   for (Index node = 0; node < model_.mesh().n_nodes(); ++node)
-    if (const int b = rigid_of_node[node];
-        b >= 0 && part_of_node_[node] >= 0 && body_of_part_[part_of_node_[node]] != model_.rigid().bodies()[b].option)
+    if (const int b = rigid_of_node[node]; b >= 0 && model_.nodes().is_own(node) && part_of_node_[node] >= 0 &&
+                                           body_of_part_[part_of_node_[node]] != model_.rigid().bodies()[b].option)
       for (int c = 0; c < dim; ++c)
         hold(node, c);
   for (const BoundaryOptions &entry : model_.options().boundary)
@@ -241,13 +182,14 @@ Eigen::VectorXd FreeMotions::loads(const State &state, std::span<const double> r
   const auto n_modes = static_cast<Eigen::Index>(modes_.size());
   Eigen::VectorXd load = Eigen::VectorXd::Zero(n_modes);
   for (Index node = 0; node < static_cast<Index>(part_of_node_.size()); ++node)
-    if (part_of_node_[node] >= 0)
+    if (part_of_node_[node] >= 0 && model_.nodes().is_own(node))
       for (Eigen::Index m = 0; m < n_modes; ++m)
       {
         const Eigen::Vector3d v = velocity(modes_[m], node, place(state, node));
         for (int c = 0; c < dim; ++c)
           load[m] -= residual[static_cast<std::size_t>(node) * dim + c] * v[c];
       }
+  model_.nodes().sum_over_processes({load.data(), static_cast<std::size_t>(load.size())});
   std::vector<double> rigid_forces(static_cast<std::size_t>(model_.rigid().n_unknowns()), 0.0);
   model_.rigid().add_forces(time, rigid_forces);
   for (Eigen::Index m = 0; m < n_modes; ++m)

@@ -63,6 +63,9 @@ private:
     int axis;      ///< direction, or axis of rotation
     bool rotation;
   };
+  void join_nodes(std::vector<int> &parent, std::vector<int> &body_of_node) const;
+  [[nodiscard]] std::vector<double> greatest_of_part(std::vector<int> &parent, const std::vector<double> &body) const;
+  void gather_parts(std::vector<std::pair<double, double>> &parts) const;
   void find_parts();
   void make_modes();
   /// Velocity of a node in a mode, per unit of the mode (rotations scaled to length by the part's size).

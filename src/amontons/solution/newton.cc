@@ -99,8 +99,9 @@ bool Newton::detect(State &state)
 double Newton::linear_tolerance(const Evaluation &at, double last_norm, double forcing, bool settled, bool trial) const
 {
   const double tolerance = linear_share * model_.options().solver.tolerance;
-  const auto n = static_cast<std::size_t>(model_.layout().n_displacement_unknowns());
-  const double force = std::max(std::sqrt(norm2({at.rhs.data(), n})), at.norm);
+  const Sharing &unknowns = model_.layout().sharing();
+  const auto forces = std::span(at.rhs).first(static_cast<std::size_t>(unknowns.size()));
+  const double force = std::max(std::sqrt(unknowns.dot(forces, forces)), at.norm);
   // While the prescribed motion is to come, the right side is what it takes to move the supports' neighbours alone, and
   // the scale of forces is not known.
   if (at.pending_motion > 0)
@@ -125,9 +126,9 @@ std::vector<double> Newton::solve_linear(const Evaluation &at, double tolerance)
   counters_.n_factorizations = earlier_.n_factorizations + cost.n_factorizations;
   counters_.n_preconditioner_setups = earlier_.n_preconditioner_setups + cost.n_preconditioner_setups;
   counters_.n_linear_iterations = earlier_.n_linear_iterations + cost.n_iterations;
-  for (const double x : step)
-    if (!std::isfinite(x))
-      throw NumericalFailure("the tangent matrix is singular");
+  const bool finite = std::all_of(step.begin(), step.end(), [](double x) { return std::isfinite(x); });
+  if (!model_.nodes().true_on_all(finite))
+    throw NumericalFailure("the tangent matrix is singular");
   return step;
 }
 

@@ -1,5 +1,7 @@
 #include "amontons/solution/newton_iterate.h"
 
+#include <array>
+
 namespace amontons
 {
 namespace
@@ -64,8 +66,9 @@ IterationReport Newton::compare(const Iterate &before, const Iterate &after)
   double change = 0;
   for (std::size_t i = 0; i < after.state.displacement.size(); ++i)
     change = std::max(change, std::abs(after.state.displacement[i] - before.state.displacement[i]));
-  const double motion = largest(after.state.displacement);
-  report.correction = motion > 0 ? change / motion : 0;
+  std::array<double, 2> most{change, largest(after.state.displacement)};
+  model_.nodes().maximum_over_processes(most);
+  report.correction = most[1] > 0 ? most[0] / most[1] : 0;
   for (std::size_t k = 0; k < after.at.status.size(); ++k)
   {
     report.n_status_changes += after.at.status[k] != before.at.status[k];

@@ -9,10 +9,10 @@ namespace
 constexpr double round_off = 1e-13;
 
 /// Forces that a displacement meets at the nodes' own stiffness: round-off in the internal forces is a part of them.
-double resisted_force(std::span<const SubdomainMatrix> subdomains, std::span<const double> displacement)
+double resisted_force(const Model &model, std::span<const double> displacement)
 {
   double sum = 0;
-  for (const SubdomainMatrix &matrix : subdomains)
+  for (const SubdomainMatrix &matrix : model.bodies().subdomains())
     for (Index row = 0; row < matrix.n_rows(); ++row)
     {
       const auto begin = matrix.col.begin() + matrix.row_ptr[row], end = matrix.col.begin() + matrix.row_ptr[row + 1];
@@ -21,6 +21,7 @@ double resisted_force(std::span<const SubdomainMatrix> subdomains, std::span<con
                          row % matrix.n_components;
       sum += std::pow(matrix.values[diagonal] * displacement[nodal], 2);
     }
+  model.nodes().sum_over_processes({&sum, 1});
   return std::sqrt(sum);
 }
 
@@ -43,7 +44,7 @@ void Newton::prepare_matrix(const State &state, double time)
   bool fresh = form_->prepare();
   if (!tangent_assembled_ || !model_.bodies().tangent_is_constant())
   {
-    if (!model_.bodies().assemble_tangent(model_.mesh_part(state.displacement), time))
+    if (!model_.nodes().true_on_all(model_.bodies().assemble_tangent(model_.mesh_part(state.displacement), time)))
       throw NumericalFailure("a cell turned inside out");
     ++counters_.n_bulk_assemblies;
     tangent_assembled_ = true;
@@ -57,8 +58,12 @@ void Newton::compute_residual(Evaluation &out, const State &state, double time,
                               const ContactContribution &contact) const
 {
   std::vector<double> internal(out.pending.size(), 0.0), external(out.pending.size(), 0.0);
-  out.valid = model_.bodies().forces(model_.mesh_part(state.displacement), time, model_.mesh_part(internal),
-                                     model_.mesh_part(external));
+  const Sharing &nodes = model_.nodes();
+  const int dim = model_.dim();
+  out.valid = nodes.true_on_all(model_.bodies().forces(model_.mesh_part(state.displacement), time,
+                                                       model_.mesh_part(internal), model_.mesh_part(external)));
+  nodes.sum(internal, dim);
+  nodes.sum(external, dim);
   out.residual.resize(internal.size());
   for (std::size_t i = 0; i < internal.size(); ++i)
     out.residual[i] = internal[i] - external[i] + contact.force[i];
@@ -70,21 +75,24 @@ void Newton::compute_residual(Evaluation &out, const State &state, double time,
   layout.gather(out.residual, forces);
   for (std::size_t i = 0; i < rigid.size(); ++i)
     forces[i] -= rigid[i];
-  out.norm = std::sqrt(norm2({forces.data(), static_cast<std::size_t>(layout.n_displacement_unknowns())}) +
-                       contact.constraint_norm2);
-  out.scale = std::sqrt(std::max({norm2(internal), norm2(external), contact.force_norm2, norm2(rigid)}));
+  const auto on_displacements = std::span(forces).first(static_cast<std::size_t>(layout.n_displacement_unknowns()));
+  out.norm = std::sqrt(layout.sharing().dot(on_displacements, on_displacements) + contact.constraint_norm2);
+  out.scale = std::sqrt(std::max(
+      {nodes.dot(internal, internal, dim), nodes.dot(external, external, dim), contact.force_norm2, norm2(rigid)}));
   // Bodies that travel freely bear no force but round-off.
-  out.scale = std::max(out.scale, round_off / model_.options().solver.tolerance *
-                                      resisted_force(model_.bodies().subdomains(), state.displacement));
+  out.scale =
+      std::max(out.scale, round_off / model_.options().solver.tolerance * resisted_force(model_, state.displacement));
   if (!std::isfinite(out.norm))
     out.valid = false;
 
   if (out.pending_motion > 0)
   {
+    std::vector<double> resisted(out.pending.size(), 0.0);
     for (const SubdomainMatrix &matrix : model_.bodies().subdomains())
-      multiply_add(matrix, out.pending, with_pending);
+      multiply_add(matrix, out.pending, resisted);
+    nodes.sum(resisted, dim);
     for (std::size_t i = 0; i < with_pending.size(); ++i)
-      with_pending[i] += contact.prescribed_force[i];
+      with_pending[i] += resisted[i] + contact.prescribed_force[i];
   }
   out.rhs.assign(forces.size(), 0.0);
   layout.gather(with_pending, out.rhs);
@@ -112,7 +120,7 @@ Newton::Evaluation Newton::evaluate(const State &state, const State &start, doub
   out.pending.resize(state.displacement.size());
   for (std::size_t i = 0; i < out.pending.size(); ++i)
     out.pending[i] = target.displacement[i] - state.displacement[i];
-  out.pending_motion = largest(out.pending);
+  out.pending_motion = model_.nodes().maximum_over_processes(largest(out.pending));
 
   const auto scope = timers_.measure("contact_assembly");
   ++counters_.n_contact_updates;

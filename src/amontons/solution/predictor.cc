@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace amontons
@@ -21,16 +22,36 @@ struct Change
   double ratio = 1; ///< of the second change to the first
 };
 
-Change compare(std::span<const double> start, std::span<const double> now, std::span<const double> next)
+/// Squares and product of the changes from the first to the second and on to the third.
+struct Products
 {
   double first2 = 0, second2 = 0, product = 0;
-  for (std::size_t i = 0; i < now.size(); ++i)
-  {
-    const double first = now[i] - start[i], second = next[i] - now[i];
-    first2 += first * first;
-    second2 += second * second;
-    product += first * second;
-  }
+};
+
+void add_products(Products &out, double start, double now, double next)
+{
+  const double first = now - start, second = next - now;
+  out.first2 += first * first;
+  out.second2 += second * second;
+  out.product += first * second;
+}
+
+Products nodal_products(const Sharing &nodes, int dim, std::span<const double> start, std::span<const double> now,
+                        std::span<const double> next)
+{
+  Products out;
+  for (Index node = 0; node < nodes.size(); ++node)
+    if (nodes.is_own(node))
+      for (Index i = node * dim; i < (node + 1) * dim; ++i)
+        add_products(out, start[i], now[i], next[i]);
+  std::array<double, 3> sums{out.first2, out.second2, out.product};
+  nodes.sum_over_processes(sums);
+  return {sums[0], sums[1], sums[2]};
+}
+
+Change compare(const Products &products)
+{
+  const auto &[first2, second2, product] = products;
   if (first2 == 0 && second2 == 0)
     return {};
   if (first2 == 0 || second2 == 0 || product < same_direction * std::sqrt(first2) * std::sqrt(second2))
@@ -47,17 +68,22 @@ Predictor::Loads Predictor::loads(const State &state, double time)
   out.force.assign(internal.size(), 0.0);
   (void)model_.bodies().forces(model_.mesh_part(state.displacement), time, model_.mesh_part(internal),
                                model_.mesh_part(out.force));
-  std::vector<double> rigid(static_cast<std::size_t>(model_.rigid().n_unknowns()), 0.0);
-  model_.rigid().add_forces(time, rigid);
-  out.force.insert(out.force.end(), rigid.begin(), rigid.end());
+  model_.nodes().sum(out.force, model_.dim());
+  out.on_rigid.assign(static_cast<std::size_t>(model_.rigid().n_unknowns()), 0.0);
+  model_.rigid().add_forces(time, out.on_rigid);
   return out;
 }
 
 std::optional<double> Predictor::load_ratio(const State &now, double from, double to)
 {
   const Loads start = loads(now, last_->from), middle = loads(now, from), end = loads(now, to);
-  const Change motion = compare(start.displacement, middle.displacement, end.displacement);
-  const Change force = compare(start.force, middle.force, end.force);
+  const Sharing &nodes = model_.nodes();
+  const Change motion =
+      compare(nodal_products(nodes, model_.dim(), start.displacement, middle.displacement, end.displacement));
+  Products forces = nodal_products(nodes, model_.dim(), start.force, middle.force, end.force);
+  for (std::size_t i = 0; i < start.on_rigid.size(); ++i)
+    add_products(forces, start.on_rigid[i], middle.on_rigid[i], end.on_rigid[i]);
+  const Change force = compare(forces);
   if (!motion.goes_on || !force.goes_on || (!motion.moves && !force.moves))
     return {};
   if (motion.moves && force.moves &&
@@ -95,21 +121,24 @@ State Predictor::approach(const State &now, double to) const
   const auto dim = static_cast<std::size_t>(model_.dim());
   const Mesh &mesh = model_.mesh();
   State out = model_.prescribe(now, to, 1);
-  std::vector<Index> body(mesh.points.size() / dim, -1);
+  std::vector<double> body(model_.rigid_of_node().size(), -1);
   const std::span<const Index> body_of_cell = model_.bodies().body_of_cell();
   for (std::size_t cell = 0; cell < body_of_cell.size(); ++cell)
     for (const Index node : mesh.cells[cell])
-      body[node] = body_of_cell[cell];
+      body[node] = std::max(body[node], static_cast<double>(body_of_cell[cell]));
+  model_.nodes().maximum(body);
   std::vector<double> sum(model_.options().bodies.size() * dim, 0.0), count(sum);
   for (const HeldComponent &held : model_.supports().held())
-    if (const Index b = body[held.nodal / dim]; b >= 0)
+    if (const auto b = static_cast<Index>(body[held.nodal / dim]); b >= 0 && model_.nodes().is_own(held.nodal / dim))
     {
       sum[b * dim + held.nodal % dim] += out.displacement[held.nodal] - now.displacement[held.nodal];
       ++count[b * dim + held.nodal % dim];
     }
+  model_.nodes().sum_over_processes(sum);
+  model_.nodes().sum_over_processes(count);
   for (std::size_t node = 0; node < body.size(); ++node)
     if (body[node] >= 0 && model_.rigid_of_node()[node] < 0)
-      for (std::size_t i = node * dim, k = body[node] * dim; i < (node + 1) * dim; ++i, ++k)
+      for (std::size_t i = node * dim, k = static_cast<std::size_t>(body[node]) * dim; i < (node + 1) * dim; ++i, ++k)
         out.displacement[i] = now.displacement[i] + sum[k] / std::max(count[k], 1.0);
   return out;
 }

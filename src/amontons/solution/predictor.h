@@ -38,7 +38,8 @@ public:
 private:
   struct Loads
   {
-    std::vector<double> displacement, force;
+    std::vector<double> displacement, force; ///< nodal
+    std::vector<double> on_rigid;            ///< forces on the rigid bodies' unknowns
   };
   [[nodiscard]] Loads loads(const State &state, double time);
   /// The factor by which the loads' change from `from` to `to` is the one from start to `from`, if it is one.

@@ -1,6 +1,7 @@
 #pragma once
 #include "amontons/bulk/mesh.h"
 #include "amontons/contact/element.h"
+#include "amontons/parallel/sharing.h"
 #include "amontons/surface/surface.h"
 
 #include <array>
@@ -56,7 +57,8 @@ struct Reaction
 /// A converged state.
 struct SolutionState
 {
-  const Mesh *mesh = nullptr;
+  const Mesh *mesh = nullptr;     ///< what this process has of it
+  const Sharing *nodes = nullptr; ///< of the mesh's nodes, then the points of analytic bodies
   double time = 0;
   int increment = 0;                ///< counts from 1; 0 is the initial state
   std::vector<double> displacement; ///< [n_nodes * dim]

@@ -37,16 +37,18 @@ const char *name_of(LinearSolverType linear)
 class Run
 {
 public:
-  Run(const ProblemOptions &options, std::span<Observer *const> observers, const Checkpoint *from)
+  Run(const ProblemOptions &options, std::span<Observer *const> observers, const Checkpoint *from,
+      const Communicator &communicator)
     : observers_(observers)
   {
     {
       const auto scope = timers_.measure("mesh");
-      model_ = std::make_unique<Model>(options);
+      model_ = std::make_unique<Model>(
+          options, communicator.size() > 1 ? std::make_shared<MessageExchange>(communicator) : nullptr);
     }
     const auto scope = timers_.measure("setup");
     state_ = model_->initial_state();
-    if (!model_->bodies().assemble_tangent(model_->mesh_part(state_.displacement), 0))
+    if (!model_->nodes().true_on_all(model_->bodies().assemble_tangent(model_->mesh_part(state_.displacement), 0)))
       throw InternalError("a cell is inside out at the start");
     const std::vector<double> diagonal = diagonal_stiffness(*model_);
     for (ContactInterface &contact : model_->contacts())
@@ -65,7 +67,7 @@ public:
   RunResult solve()
   {
     SolutionState last = solution({});
-    tell(&Observer::start, last, static_cast<std::int64_t>(model_->layout().n_unknowns()));
+    tell(&Observer::start, last, static_cast<std::int64_t>(model_->n_global_unknowns()));
     if (increment_ == 0)
       for (const std::string &warning : initial_warnings(*model_))
         tell(&Observer::warning, warning);
@@ -137,8 +139,7 @@ private:
 
   void restore(const Checkpoint &from)
   {
-    if (from.problem_key != problem_key(model_->options(), model_->mesh()) ||
-        from.state.displacement.size() != state_.displacement.size() ||
+    if (from.problem_key != model_->problem_key() || from.state.displacement.size() != state_.displacement.size() ||
         from.state.multipliers.size() != state_.multipliers.size() || from.state.rigid.size() != state_.rigid.size() ||
         from.contacts.size() != model_->contacts().size())
       throw UserError("the checkpoint is of another problem: mesh, kinds of bodies and contacts must be those "
@@ -169,16 +170,9 @@ private:
       const auto scope = timers_.measure("output");
       if (!checkpoint)
       {
-        checkpoint = Checkpoint{problem_key(model_->options(), model_->mesh()),
-                                increment_,
-                                time_,
-                                step_,
-                                last_motion_,
-                                state_,
-                                newton_->last_increment(),
-                                {},
-                                model_->bodies().histories(),
-                                counters_};
+        checkpoint = Checkpoint{
+            model_->problem_key(),        increment_, time_, step_, last_motion_, state_, newton_->last_increment(), {},
+            model_->bodies().histories(), counters_};
         for (const ContactInterface &contact : model_->contacts())
           checkpoint->contacts.push_back(contact.history());
       }
@@ -211,6 +205,7 @@ private:
   {
     SolutionState out;
     out.mesh = &model_->mesh();
+    out.nodes = &model_->nodes();
     out.time = time_;
     out.increment = increment_;
     const auto u = model_->mesh_part(state_.displacement);
@@ -229,6 +224,7 @@ private:
     last_motion_ = 0;
     for (std::size_t i = 0; i < next.displacement.size(); ++i)
       last_motion_ = std::max(last_motion_, std::abs(next.displacement[i] - state_.displacement[i]));
+    last_motion_ = model_->nodes().maximum_over_processes(last_motion_);
     start_ = std::move(state_);
     state_ = std::move(next);
     time_ = time;
@@ -254,9 +250,10 @@ private:
 };
 } // namespace
 
-RunResult run(const ProblemOptions &options, std::span<Observer *const> observers, const Checkpoint *from)
+RunResult run(const ProblemOptions &options, std::span<Observer *const> observers, const Checkpoint *from,
+              const Communicator &communicator)
 {
-  return Run(options, observers, from).solve();
+  return Run(options, observers, from, communicator).solve();
 }
 
 ProblemCheck check_problem(const ProblemOptions &options)
@@ -268,7 +265,7 @@ ProblemCheck check_problem(const ProblemOptions &options)
   ProblemCheck out;
   out.n_nodes = model.mesh().n_nodes();
   out.n_cells = model.mesh().cells.size();
-  out.n_dofs = model.layout().n_unknowns();
+  out.n_dofs = model.n_global_unknowns();
   for (const ContactInterface &contact : model.contacts())
     out.contacts.push_back({contact.options().name, contact.n_nodes(),
                             contact.target() ? contact.target()->n_faces() : 0, contact.detection_report()});

@@ -1,6 +1,7 @@
 #pragma once
 #include "amontons/base/timer.h"
 #include "amontons/detection/report.h"
+#include "amontons/parallel/communicator.h"
 #include "amontons/solution/observer.h"
 #include "amontons/solution/options.h"
 
@@ -18,11 +19,12 @@ struct RunResult
   std::string failure; ///< named cause; empty when converged
 };
 
-/// Solves a problem to its end and tells the observers. Collective.
+/// Solves a problem to its end and tells the observers, every process its own. Collective.
 /// @param from where an earlier run left off; null: from t = 0
 /// @throws UserError for what only the mesh can tell is wrong (check_problem finds the same), and for a checkpoint of
 ///         another problem
-RunResult run(const ProblemOptions &options, std::span<Observer *const> observers, const Checkpoint *from = nullptr);
+RunResult run(const ProblemOptions &options, std::span<Observer *const> observers, const Checkpoint *from = nullptr,
+              const Communicator &communicator = Communicator::alone());
 
 /// What can be known of a contact before solving.
 struct ContactCheck
@@ -42,6 +44,6 @@ struct ProblemCheck
   std::vector<std::string> warnings;
 };
 
-/// Builds the problem and detects once, without solving. Collective. @throws UserError as run().
+/// Builds the problem and detects once, without solving. Local. @throws UserError as run().
 ProblemCheck check_problem(const ProblemOptions &options);
 } // namespace amontons

@@ -53,6 +53,7 @@ std::vector<double> diagonal_stiffness(const Model &model)
         if (matrix.col[k] == row)
           diagonal[static_cast<std::size_t>(matrix.nodes[row / matrix.n_components]) * matrix.n_components +
                    row % matrix.n_components] += matrix.values[k];
+  model.nodes().sum(diagonal, model.dim());
   return diagonal;
 }
 

@@ -1,0 +1,133 @@
+#include "amontons/base/disjoint_sets.h"
+#include "amontons/solution/free_motions.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+/// FreeMotions: which nodes hang together, over all processes.
+namespace amontons
+{
+/// What hangs together on this process, by a node for each, and the body of every node that can move, or -1.
+void FreeMotions::join_nodes(std::vector<int> &parent, std::vector<int> &body_of_node) const
+{
+  const Mesh &mesh = model_.mesh();
+  const auto body_of_cell = model_.bodies().body_of_cell();
+  for (Index cell = 0; cell < mesh.cells.size(); ++cell)
+  {
+    const int body = body_of_cell[cell];
+    if (body < 0 || model_.options().bodies[body].material.law == MaterialLaw::rigid)
+      continue;
+    for (const Index node : mesh.cells[cell])
+    {
+      parent[find_root(parent, node)] = find_root(parent, mesh.cells[cell][0]);
+      body_of_node[node] = std::max(body_of_node[node], body);
+    }
+  }
+  for (const RigidBody &body : model_.rigid().bodies())
+  {
+    const auto is_free = [](const RigidComponent &c) { return c.kind == RigidComponent::Kind::free; };
+    if (std::none_of(body.translation.begin(), body.translation.end(), is_free) &&
+        std::none_of(body.rotation.begin(), body.rotation.end(), is_free))
+      continue;
+    for (const Index node : body.nodes)
+    {
+      parent[find_root(parent, node)] = find_root(parent, body.nodes[0]);
+      body_of_node[node] = body.option;
+    }
+  }
+}
+
+/// The greatest number of a node in the part that each node hangs together with, over all processes; -1 for nodes that
+/// cannot move. [n_nodes]
+std::vector<double> FreeMotions::greatest_of_part(std::vector<int> &parent, const std::vector<double> &body) const
+{
+  std::vector<double> label(parent.size(), -1), of_root(parent.size(), -1);
+  for (std::size_t node = 0; node < label.size(); ++node)
+    if (body[node] >= 0)
+      label[node] = static_cast<double>(model_.node_id(static_cast<Index>(node)));
+  for (bool changed = true; changed;)
+  {
+    model_.nodes().maximum(label);
+    changed = false;
+    for (std::size_t node = 0; node < label.size(); ++node)
+      if (double &greatest = of_root[find_root(parent, static_cast<int>(node))]; label[node] > greatest)
+      {
+        greatest = label[node];
+        changed = true;
+      }
+    for (std::size_t node = 0; node < label.size(); ++node)
+      if (label[node] >= 0)
+        label[node] = of_root[find_root(parent, static_cast<int>(node))];
+    changed = !model_.nodes().true_on_all(!changed);
+  }
+  return label;
+}
+
+void FreeMotions::find_parts()
+{
+  const auto n = model_.rigid_of_node().size();
+  std::vector<int> parent(n), own_body(n, -1);
+  std::iota(parent.begin(), parent.end(), 0);
+  join_nodes(parent, own_body);
+  std::vector<double> body(own_body.begin(), own_body.end());
+  model_.nodes().maximum(body);
+  const std::vector<double> label = greatest_of_part(parent, body);
+
+  // The node that gives its number to a part tells all processes of it.
+  std::vector<std::pair<double, double>> parts;
+  for (std::size_t node = 0; node < n; ++node)
+    if (label[node] >= 0 && model_.nodes().is_own(static_cast<Index>(node)) &&
+        label[node] == static_cast<double>(model_.node_id(static_cast<Index>(node))))
+      parts.emplace_back(label[node], body[node]);
+  gather_parts(parts);
+  std::sort(parts.begin(), parts.end());
+  part_of_node_.assign(n, -1);
+  const auto n_parts = parts.size();
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::vector<double> extremes(6 * n_parts, none); // of x, y, z, then of -x, -y, -z
+  for (std::size_t node = 0; node < n; ++node)
+  {
+    if (label[node] < 0)
+      continue;
+    const auto part = std::lower_bound(parts.begin(), parts.end(), std::pair{label[node], none}) - parts.begin();
+    part_of_node_[node] = static_cast<int>(part);
+    const Eigen::Vector3d x = model_.reference(static_cast<Index>(node));
+    for (int c = 0; c < 3; ++c)
+    {
+      double &high = extremes[static_cast<std::size_t>(6 * part + c)],
+             &low = extremes[static_cast<std::size_t>(6 * part + 3 + c)];
+      high = std::max(high, x[c]);
+      low = std::max(low, -x[c]);
+    }
+  }
+  model_.nodes().maximum_over_processes(extremes);
+  for (std::size_t p = 0; p < n_parts; ++p)
+  {
+    body_of_part_.push_back(static_cast<int>(parts[p].second));
+    const Eigen::Map<const Eigen::Vector3d> high(extremes.data() + 6 * p), minus_low(extremes.data() + 6 * p + 3);
+    center_.emplace_back(0.5 * (high - minus_low));
+    size_.push_back(std::max((high + minus_low).norm(), 1e-300));
+  }
+}
+
+/// Those of all processes.
+void FreeMotions::gather_parts(std::vector<std::pair<double, double>> &parts) const
+{
+  const Sharing &nodes = model_.nodes();
+  std::vector<double> counts(static_cast<std::size_t>(nodes.n_processes()), 0.0);
+  counts[nodes.rank()] = static_cast<double>(parts.size());
+  nodes.sum_over_processes(counts);
+  const auto before = static_cast<std::size_t>(std::accumulate(counts.begin(), counts.begin() + nodes.rank(), 0.0));
+  std::vector<double> all(2 * static_cast<std::size_t>(std::accumulate(counts.begin(), counts.end(), 0.0)), 0.0);
+  for (std::size_t p = 0; p < parts.size(); ++p)
+  {
+    all[2 * (before + p)] = parts[p].first;
+    all[2 * (before + p) + 1] = parts[p].second;
+  }
+  nodes.sum_over_processes(all);
+  parts.clear();
+  for (std::size_t k = 0; k < all.size(); k += 2)
+    parts.emplace_back(all[k], all[k + 1]);
+}
+} // namespace amontons
