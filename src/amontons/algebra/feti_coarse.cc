@@ -1,5 +1,6 @@
 #include "amontons/algebra/feti_coarse.h"
 
+#include "amontons/algebra/feti_copies.h"
 #include "amontons/algebra/linear_solver_failure.h"
 
 #include <Eigen/QR>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 namespace amontons
@@ -17,6 +19,64 @@ namespace
 constexpr double singular_condition = 1e-14;
 /// Shift under which the kernel is looked for, and what E may be on it.
 constexpr double shift = 1e-7, kernel_residual = 1e-10;
+
+void sort_each(std::vector<std::vector<Index>> &lists)
+{
+  for (std::vector<Index> &list : lists)
+  {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+}
+
+Bytes packed(const std::vector<std::vector<Index>> &lists)
+{
+  ByteWriter writer;
+  for (std::size_t k = 0; k < lists.size(); ++k)
+    if (!lists[k].empty())
+    {
+      writer.add(static_cast<Index>(k));
+      writer.add_array(lists[k]);
+    }
+  return writer.take();
+}
+
+void append_packed(const Bytes &bytes, std::vector<std::vector<Index>> &lists)
+{
+  ByteReader reader(bytes);
+  while (!reader.is_at_end())
+  {
+    std::vector<Index> &list = lists[reader.get<Index>()];
+    const std::vector<Index> more = reader.get_array<Index>();
+    list.insert(list.end(), more.begin(), more.end());
+  }
+  sort_each(lists);
+}
+
+/// The lists of all processes, on all: put together on the first, which sends them back.
+void unite(std::vector<std::vector<Index>> &lists, const Sharing &processes)
+{
+  if (!processes.is_distributed())
+    return;
+  const bool gathers = processes.rank() == 0;
+  std::vector<Rank> partners{0};
+  if (gathers)
+  {
+    partners.resize(static_cast<std::size_t>(processes.n_processes()) - 1);
+    std::iota(partners.begin(), partners.end(), 1);
+  }
+  for (const bool back : {false, true})
+  {
+    const bool sends = gathers == back;
+    std::vector<Message> out;
+    for (const Rank rank : partners)
+      if (sends)
+        out.push_back({rank, packed(lists)});
+    const std::span<const Rank> sources(partners.data(), sends ? 0 : partners.size());
+    for (const Message &message : processes.messages()->exchange_with(feti_setup_phase, std::move(out), sources))
+      append_packed(message.bytes, lists);
+  }
+}
 } // namespace
 
 void FetiKernel::clear()
@@ -62,7 +122,8 @@ void FetiKernel::restrict(std::span<const double> v, std::span<double> alpha) co
     }
 }
 
-void FetiCoarse::set_pattern(const std::function<void(const std::function<void(std::span<const Index>)> &)> &couple)
+void FetiCoarse::set_pattern(const std::function<void(const std::function<void(std::span<const Index>)> &)> &couple,
+                             const Sharing &processes)
 {
   std::vector<std::vector<Index>> lower(static_cast<std::size_t>(kernel_.n_owners()));
   couple(
@@ -73,12 +134,20 @@ void FetiCoarse::set_pattern(const std::function<void(const std::function<void(s
             if (s < t && (lower[t].empty() || lower[t].back() != s))
               lower[t].push_back(s);
       });
+  sort_each(lower);
+  unite(lower, processes);
+  lay_out(lower);
+  if (pattern_.size() > 0)
+    factor_.analyze(pattern_);
+}
+
+/// @param lower by owner the lower ones that it is coupled with, ascending
+void FetiCoarse::lay_out(const std::vector<std::vector<Index>> &lower)
+{
   neighbours_.assign(lower.size(), {});
   pattern_ = {};
   for (Index t = 0; t < kernel_.n_owners(); ++t)
   {
-    std::sort(lower[t].begin(), lower[t].end());
-    lower[t].erase(std::unique(lower[t].begin(), lower[t].end()), lower[t].end());
     Index place = 0;
     for (const Index s : lower[t])
     {
@@ -96,8 +165,6 @@ void FetiCoarse::set_pattern(const std::function<void(const std::function<void(s
       pattern_.offsets.push_back(static_cast<Index>(pattern_.rows.size()));
     }
   }
-  if (pattern_.size() > 0)
-    factor_.analyze(pattern_);
 }
 
 void FetiCoarse::copy_pattern(const FetiCoarse &other)
@@ -108,11 +175,11 @@ void FetiCoarse::copy_pattern(const FetiCoarse &other)
     factor_.analyze(pattern_);
 }
 
-void FetiCoarse::add(const FetiRows &rows, std::vector<double> &values) const
+void FetiCoarse::add(const FetiRows &rows, std::vector<double> &values, Index first) const
 {
   using Block = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
   std::vector<std::pair<Index, Block>> blocks; // of one row of G
-  for (Index row = 0; row < rows.size(); ++row)
+  for (Index row = first; row < rows.size(); ++row)
   {
     blocks.clear();
     for (const auto &[column, coefficient] : rows[row])

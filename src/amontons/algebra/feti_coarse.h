@@ -1,6 +1,7 @@
 #pragma once
 #include "amontons/algebra/feti_cholmod.h"
 #include "amontons/algebra/feti_rows.h"
+#include "amontons/parallel/sharing.h"
 
 #include <Eigen/Core>
 
@@ -9,7 +10,7 @@
 namespace amontons
 {
 /// Kernels of all subdomains, R, over the columns of B: each column belongs to one owner (a subdomain, a rigid unknown)
-/// or to none, and has a row of its owner's basis.
+/// or to none, and has a row of its owner's basis. Owners are counted over all processes.
 class FetiKernel
 {
 public:
@@ -39,7 +40,7 @@ private:
   std::vector<double> basis_;
 };
 
-/// The coarse problem E = G^T G, G = B R, factorised sparse.
+/// The coarse problem E = G^T G, G = B R, factorised sparse; over several processes by each of them.
 ///
 /// Where rows of B do not hold every motion, E is singular. Its kernel N is then found with the number of its
 /// dimensions given, as many entries are pinned, and solutions are exact for right sides orthogonal to N.
@@ -52,12 +53,13 @@ public:
   {
   }
 
-  /// @param couple calls back with every set of owners that a row may couple
-  void set_pattern(const std::function<void(const std::function<void(std::span<const Index>)> &)> &couple);
+  /// Collective. @param couple calls back with every set of owners that a row of this process may couple
+  void set_pattern(const std::function<void(const std::function<void(std::span<const Index>)> &)> &couple,
+                   const Sharing &processes);
   void copy_pattern(const FetiCoarse &other);
   [[nodiscard]] std::vector<double> zeros() const { return std::vector<double>(pattern_.rows.size(), 0.0); }
-  /// values += G^T G of these rows.
-  void add(const FetiRows &rows, std::vector<double> &values) const;
+  /// values += G^T G of these rows, from the `first` on.
+  void add(const FetiRows &rows, std::vector<double> &values, Index first = 0) const;
   /// @param n_free dimensions of the kernel that is expected
   /// @return whether E has that kernel (n_free > 0); false if it is regular
   /// @throws NumericalFailure if E is singular and n_free = 0
@@ -68,6 +70,7 @@ public:
   [[nodiscard]] const Eigen::MatrixXd &free_motions() const { return free_; }
 
 private:
+  void lay_out(const std::vector<std::vector<Index>> &lower);
   [[nodiscard]] std::vector<Index> choose_pins(std::span<const double> values, Index n_free);
   [[nodiscard]] bool find_free_motions(std::vector<double> &values, Index n_free);
   [[nodiscard]] Eigen::MatrixXd product(std::span<const double> values, const Eigen::MatrixXd &x) const;

@@ -16,34 +16,59 @@ constexpr double least_share = 1e-10;
 /// One that loses less than this leaves no round-off worth a second orthogonalisation (Daniel et al. 1976).
 constexpr double lossless_share = 0.1;
 
-double dot(std::span<const double> a, std::span<const double> b)
-{
-  return cblas_ddot(static_cast<int>(a.size()), a.data(), 1, b.data(), 1);
-}
-
 void add_multiple(double factor, std::span<const double> a, std::span<double> b)
 {
   cblas_daxpy(static_cast<int>(a.size()), factor, a.data(), 1, b.data(), 1);
 }
 } // namespace
 
-void FetiDirections::clear()
+void FetiDirections::start(std::size_t first_own, std::size_t n_own, const Sharing &processes)
 {
   p_.clear();
   q_.clear();
+  first_own_ = first_own;
+  n_own_ = n_own;
+  processes_ = &processes;
 }
 
-void FetiDirections::step(std::size_t k, std::span<double> x, std::span<double> r) const
+double FetiDirections::own_dot(std::span<const double> a, std::span<const double> b) const
 {
-  const double factor = dot(q_[k], r);
-  add_multiple(factor, p_[k], x);
-  add_multiple(-factor, q_[k], r);
+  return cblas_ddot(static_cast<int>(n_own_), a.data() + first_own_, 1, b.data() + first_own_, 1);
+}
+
+double FetiDirections::dot(std::span<const double> a, std::span<const double> b) const
+{
+  double out = own_dot(a, b);
+  processes_->sum_over_processes({&out, 1});
+  return out;
+}
+
+/// take(k, q_k . v) for all k. Where `take` changes v, one process has the products with what is left of v (modified
+/// Gram-Schmidt); several have them with v as it was, since they are summed together (classical).
+template<class Take>
+void FetiDirections::for_each_product(std::span<const double> v, Take &&take) const
+{
+  const std::size_t n = q_.size(), n_together = processes_->is_distributed() ? n : 1;
+  std::vector<double> products;
+  for (std::size_t first = 0; first < n; first += n_together)
+  {
+    products.clear();
+    for (std::size_t k = first; k < first + n_together; ++k)
+      products.push_back(own_dot(q_[k], v));
+    processes_->sum_over_processes(products);
+    for (std::size_t k = first; k < first + n_together; ++k)
+      take(k, products[k - first]);
+  }
 }
 
 void FetiDirections::project(std::span<double> x, std::span<double> r) const
 {
-  for (std::size_t k = 0; k < p_.size(); ++k)
-    step(k, x, r);
+  for_each_product(r,
+                   [&](std::size_t k, double factor)
+                   {
+                     add_multiple(factor, p_[k], x);
+                     add_multiple(-factor, q_[k], r);
+                   });
 }
 
 bool FetiDirections::add(std::vector<double> p, std::vector<double> q, std::span<double> x, std::span<double> r)
@@ -52,12 +77,12 @@ bool FetiDirections::add(std::vector<double> p, std::vector<double> q, std::span
   double left = length;
   for (int round = 0; round == 0 || (round == 1 && left < lossless_share * length); ++round)
   {
-    for (std::size_t k = 0; k < p_.size(); ++k)
-    {
-      const double factor = dot(q_[k], q);
-      add_multiple(-factor, p_[k], p);
-      add_multiple(-factor, q_[k], q);
-    }
+    for_each_product(q,
+                     [&](std::size_t k, double factor)
+                     {
+                       add_multiple(-factor, p_[k], p);
+                       add_multiple(-factor, q_[k], q);
+                     });
     left = std::sqrt(dot(q, q));
   }
   if (!(left > least_share * length))
@@ -71,7 +96,9 @@ bool FetiDirections::add(std::vector<double> p, std::vector<double> q, std::span
   }
   p_.push_back(std::move(p));
   q_.push_back(std::move(q));
-  step(p_.size() - 1, x, r);
+  const double factor = dot(q_.back(), r);
+  add_multiple(factor, p_.back(), x);
+  add_multiple(-factor, q_.back(), r);
   return true;
 }
 } // namespace amontons

@@ -1,4 +1,6 @@
 #pragma once
+#include "amontons/parallel/sharing.h"
+
 #include <span>
 #include <vector>
 
@@ -7,20 +9,28 @@ namespace amontons
 /// Search directions p with their images q = A p, the q orthonormal: generalised conjugate residuals (Eisenstat, Elman,
 /// Schultz 1983), which in exact arithmetic is GMRES. While A stands, the directions of former solves serve every new
 /// right side: the residual is first freed of all that they span.
+///
+/// Over several processes each has the vectors' entries that it knows, and counts some of them as its own in inner
+/// products, each entry being one process's own. What is known to several is changed by all alike.
 class FetiDirections
 {
 public:
-  void clear();
-  [[nodiscard]] bool empty() const { return p_.empty(); }
-  /// x += sum (q . r) p and r -= sum (q . r) q, over all directions.
+  /// Forgets all directions. @param first_own entries from here on are own, [0, n_own) of them
+  void start(std::size_t first_own, std::size_t n_own, const Sharing &processes);
+  /// x += sum (q . r) p and r -= sum (q . r) q, over all directions. Collective.
   void project(std::span<double> x, std::span<double> r) const;
-  /// Takes a direction and makes a step along it. The oldest gives way when there are too many.
+  /// Takes a direction and makes a step along it. The oldest gives way when there are too many. Collective.
   /// @return false if its image is a combination of those already there
   bool add(std::vector<double> p, std::vector<double> q, std::span<double> x, std::span<double> r);
 
 private:
-  void step(std::size_t k, std::span<double> x, std::span<double> r) const;
+  [[nodiscard]] double own_dot(std::span<const double> a, std::span<const double> b) const;
+  [[nodiscard]] double dot(std::span<const double> a, std::span<const double> b) const;
+  template<class Take>
+  void for_each_product(std::span<const double> v, Take &&take) const;
 
   std::vector<std::vector<double>> p_, q_;
+  std::size_t first_own_ = 0, n_own_ = 0;
+  const Sharing *processes_ = nullptr;
 };
 } // namespace amontons

@@ -37,9 +37,16 @@ struct FetiStep
 /// is the identity but for contact rows among each other; the preconditioner is
 ///     (B_f D^-1 B_f^T)^-1 B_f D^-1 S D^-1 B^T (B D^-1 B^T)^-1.
 /// A change of contact rows touches no subdomain. Held modes are dense rows over the displacement unknowns.
+///
+/// Over several processes each works on its own subdomains. A vector over the rows has, on each process, the gluing
+/// rows that touch its subdomains and all contact rows, copies equal bit by bit; contact rows and springs are given by
+/// all alike. An iteration costs two exchanges of gluing rows with the neighbours, and six reductions: one of the
+/// contact rows and the coarse problem's right side together, one of that right side and a norm, one of the contact
+/// rows, three of inner products. The coarse problem is solved by every process. All calls are collective.
 class FetiDual
 {
 public:
+  /// @throws LinearSolverFailure, NumericalFailure as all members: the same on all processes
   FetiDual(const Layout &layout, std::span<const SubdomainMatrix> subdomains, FetiOptions options);
 
   [[nodiscard]] const FetiInterface &interface() const { return *interface_; }
@@ -69,9 +76,13 @@ private:
   {
     std::optional<SparseCholesky> factor;
   };
+  void factorize_subdomains();
+  void build_kernel();
+  void build_contact_problem(Index n_modes);
   void build_scaling(const FetiRows &rows, Scaling &scaling);
   void scale_rows();
   void set_modes(const std::vector<std::vector<double>> &modes);
+  [[nodiscard]] Eigen::MatrixXd mode_products(const std::vector<std::span<const double>> &vectors) const;
   [[nodiscard]] FetiStep solve_regular(std::span<const double> forces, std::span<const double> gaps, double reduction,
                                        double target);
   [[nodiscard]] FetiStep solve_free(std::vector<double> forces, std::span<const double> gaps,
@@ -82,22 +93,40 @@ private:
 
   [[nodiscard]] std::vector<double> condense(std::span<const double> forces);
   [[nodiscard]] std::vector<double> expand(std::span<const double> boundary);
-  /// B v and B_f^T lambda; `forces` chooses B_f.
-  [[nodiscard]] std::vector<double> gaps(std::span<const double> v, bool forces = false) const;
+  [[nodiscard]] std::vector<double> kernel_loads(std::span<const double> condensed) const;
+  /// B v, B_f v with `forces`: on all processes where v is known on all columns, else the part of those it is known on.
+  [[nodiscard]] std::vector<double> rows_of(std::span<const double> v, bool forces = false) const;
+  /// B v - gaps of the contact rows, and G^T of it, for v known on own columns.
+  struct Jump
+  {
+    std::vector<double> rows, loads;
+  };
+  [[nodiscard]] Jump jump(std::span<const double> v, std::span<const double> row_gaps) const;
+  /// B^T lambda, or with B_f.
   [[nodiscard]] std::vector<double> pull(std::span<const double> multipliers, bool forces) const;
+  /// The norm of B_f^T z, and G_f^T z.
+  struct Pull
+  {
+    double norm;
+    std::vector<double> loads;
+  };
+  [[nodiscard]] Pull measure(std::span<const double> z) const;
   [[nodiscard]] std::vector<double> flexibility(std::span<const double> v) const;
   [[nodiscard]] std::vector<double> precondition(std::vector<double> r);
-  /// x - G (G^T G)^-1 G^T x, or with G_f.
-  void project(std::vector<double> &x, bool forces);
+  /// x - G (G^T G)^-1 G^T x, or with G_f. @param loads G^T x
+  void project(std::vector<double> &x, std::vector<double> loads, bool forces);
   [[nodiscard]] FetiCoarse &coarse(bool forces) { return forces && !contact_.symmetric ? *coarse_forces_ : *coarse_; }
   [[nodiscard]] Index n_columns() const
   {
     return interface_->n_columns() + static_cast<Index>(contact_.springs.size());
   }
+  /// What all processes know is counted by the first.
+  [[nodiscard]] bool counts_common() const { return processes_.rank() == 0; }
 
   const Layout &layout_;
   std::span<const SubdomainMatrix> subdomains_;
   FetiOptions options_;
+  Sharing processes_, setup_processes_; ///< for sums over them, counted by phase
   CholmodSession session_;
   std::unique_ptr<FetiInterface> interface_;
   std::vector<SubdomainFactor> factors_;
@@ -107,6 +136,7 @@ private:
   FetiRows glue_;
   FetiContactRows given_, contact_; ///< as given, and scaled
   std::vector<double> row_scale_, inverse_stiffness_;
+  double mean_inverse_stiffness_ = 0;
   Scaling scaling_, scaling_forces_;
   std::vector<std::vector<double>> modes_, mode_loads_; ///< mode_loads_: R^T of the condensed modes
   std::vector<std::vector<double>> free_motions_;       ///< over the unknowns

@@ -37,7 +37,7 @@ void FetiForm::set_constraints(std::vector<ConstraintPattern> constraints, std::
 
   FetiOptions options = dual_->options();
   const std::size_t n_known = options.contact_nodes.size();
-  const int dim = subdomains_.empty() ? 1 : subdomains_[0].n_components;
+  const int dim = dual_->interface().dim();
   for (const ConstraintPattern &pattern : constraints_)
     for (int k = 0; k < pattern.n_nodal(); ++k)
       if (const Index node = pattern.nodal[k] / dim; !dual_->interface().on_boundary(node))
@@ -174,8 +174,10 @@ Eigen::VectorXd FetiForm::on_pattern(const ConstraintPattern &pattern, std::span
 void FetiForm::measure(Residual &r) const
 {
   double sum = 0;
-  for (const double f : r.forces)
-    sum += f * f;
+  for (std::size_t i = 0; i < r.forces.size(); ++i)
+    if (layout_.sharing().is_own(static_cast<Index>(i)))
+      sum += r.forces[i] * r.forces[i];
+  layout_.sharing().sum_over_processes({&sum, 1});
   std::size_t i = 0;
   for (std::size_t k = 0; k < constraints_.size(); ++k)
     for (int row = 0; row < reduced_[k].n_rows(); ++row)
@@ -235,6 +237,9 @@ FetiForm::Residual FetiForm::residual(const Residual &right_side, const FetiStep
   std::vector<double> nodal_forces(displacement.size(), 0.0);
   for (const SubdomainMatrix &matrix : subdomains_)
     multiply_add(matrix, displacement, nodal_forces);
+  const Sharing &nodes = dual_->options().nodes;
+  const int dim = dual_->interface().dim();
+  nodes.sum(std::span(nodal_forces).first(static_cast<std::size_t>(nodes.size()) * dim), dim);
   for (double &force : nodal_forces)
     force = -force;
   subtract_constraints(displacement, step, nodal_forces, out);
@@ -245,12 +250,17 @@ FetiForm::Residual FetiForm::residual(const Residual &right_side, const FetiStep
         out.forces[dense_blocks_[b][i]] -=
             dense_values_[b](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
             step.unknowns[dense_blocks_[b][j]];
+  std::vector<double> moved(modes_.size(), 0.0);
   for (std::size_t m = 0; m < modes_.size(); ++m)
     for (std::size_t i = 0; i < modes_[m].size(); ++i)
     {
       out.forces[i] -= step.modes[m] * modes_[m][i];
-      out.motions[m] -= modes_[m][i] * step.unknowns[i];
+      if (layout_.sharing().is_own(static_cast<Index>(i)))
+        moved[m] += modes_[m][i] * step.unknowns[i];
     }
+  layout_.sharing().sum_over_processes(moved);
+  for (std::size_t m = 0; m < modes_.size(); ++m)
+    out.motions[m] -= moved[m];
   measure(out);
   return out;
 }

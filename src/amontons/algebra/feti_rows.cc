@@ -32,8 +32,9 @@ void FetiRows::multiply(std::span<const double> x, double *y) const
 
 void FetiRows::multiply_transposed_add(const double *x, std::span<double> y) const
 {
+  const auto n = static_cast<Index>(y.size());
   for (Index row = 0; row < size(); ++row)
-    for (Index k = offsets_[row]; k < offsets_[row + 1]; ++k)
+    for (Index k = offsets_[row]; k < offsets_[row + 1] && entries_[k].first < n; ++k)
       y[entries_[k].first] += entries_[k].second * x[row];
 }
 } // namespace amontons

@@ -33,7 +33,7 @@ public:
 
   /// y = A x. @param y [size()]
   void multiply(std::span<const double> x, double *y) const;
-  /// y += A^T x. @param x [size()]
+  /// y += A^T x; columns beyond the end of y are left out. @param x [size()]
   void multiply_transposed_add(const double *x, std::span<double> y) const;
 
   friend bool operator==(const FetiRows &, const FetiRows &) = default;

@@ -1,5 +1,8 @@
 #pragma once
 #include "amontons/base/error.h"
+#include "amontons/parallel/sharing.h"
+
+#include <functional>
 
 namespace amontons
 {
@@ -9,4 +12,8 @@ class LinearSolverFailure : public NumericalFailure
 public:
   using NumericalFailure::NumericalFailure;
 };
+
+/// agree_on_errors() that keeps LinearSolverFailure what it is. Collective, but `work` itself must be local; where
+/// nothing is distributed it is just done.
+void agree_on_failures(const Sharing &processes, const std::function<void()> &work);
 } // namespace amontons
