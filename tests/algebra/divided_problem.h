@@ -56,6 +56,7 @@ public:
       if (rank_of_subdomain(deal, s, whole.subdomains.size(), all.size()) == all.rank())
         part_.subdomains.push_back(whole.subdomains[s]);
     number_nodes();
+    part_.nodes_sharing = Sharing(messages, "nodes", std::vector<GlobalIndex>(part_.nodes.begin(), part_.nodes.end()));
     number_unknowns(std::move(messages));
   }
   [[nodiscard]] ProblemPart take() { return std::move(part_); }
@@ -164,6 +165,7 @@ public:
   [[nodiscard]] const ProblemPart &part() const { return part_; }
   [[nodiscard]] ProblemPart &part() { return part_; }
   [[nodiscard]] SystemForm &divided() { return *divided_; }
+  [[nodiscard]] SystemForm &reference() { return *reference_; }
 
   void prepare()
   {

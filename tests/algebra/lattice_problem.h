@@ -26,6 +26,7 @@ struct FormProblem
   std::vector<ConstraintPattern> patterns;
   Index n_rigid = 0; ///< unknowns of the rigid body: the first ones
   Layout layout;
+  Sharing nodes_sharing;
 
   [[nodiscard]] Index n_nodes() const { return static_cast<Index>(points.size()) / dim; }
 };

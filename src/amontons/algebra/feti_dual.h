@@ -54,8 +54,10 @@ public:
 
   /// Factorises the subdomains' present values.
   void update_bodies();
-  /// Nodal components that a contact row may couple, whatever the status.
-  void set_couplings(const std::vector<std::span<const Index>> &nodal_sets);
+  /// @param nodal_sets nodal components that a contact row may couple, whatever the status
+  /// @param rigid_sets rigid unknowns that one may
+  void set_couplings(const std::vector<std::span<const Index>> &nodal_sets,
+                     const std::vector<std::span<const Index>> &rigid_sets);
   /// @param modes each over the displacement unknowns
   void set_rows(FetiContactRows contact, const std::vector<std::vector<double>> &modes);
 

@@ -75,7 +75,8 @@ void FetiDual::build_kernel()
     kernel_.add_owner(Eigen::MatrixXd::Ones(1, 1));
 }
 
-void FetiDual::set_couplings(const std::vector<std::span<const Index>> &nodal_sets)
+void FetiDual::set_couplings(const std::vector<std::span<const Index>> &nodal_sets,
+                             const std::vector<std::span<const Index>> &rigid_sets)
 {
   coarse_.emplace(session_, kernel_);
   coarse_forces_.reset();
@@ -100,6 +101,13 @@ void FetiDual::set_couplings(const std::vector<std::span<const Index>> &nodal_se
       entries.clear();
       for (const Index i : nodal)
         interface_->append(i, 1, entries);
+      finish(entries);
+    }
+    for (const std::span<const Index> unknowns : rigid_sets)
+    {
+      entries.clear();
+      for (const Index unknown : unknowns)
+        entries.emplace_back(interface_->rigid_column(unknown), 1);
       finish(entries);
     }
   };

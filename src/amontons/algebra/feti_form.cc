@@ -147,7 +147,7 @@ void FetiForm::factorize()
     std::vector<std::span<const Index>> couplings;
     for (const ConstraintPattern &pattern : constraints_)
       couplings.emplace_back(pattern.nodal);
-    dual_->set_couplings(couplings);
+    dual_->set_couplings(couplings, {dense_blocks_.begin(), dense_blocks_.end()});
     ++n_pattern_builds_;
   }
   bodies_changed_ = pattern_changed_ = false;
