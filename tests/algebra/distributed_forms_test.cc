@@ -1,4 +1,8 @@
 // On any number of processes. Every expectation holds on each of them.
+#include "amontons/algebra/amg_solver.h"
+#include "amontons/algebra/condensed_form.h"
+#include "amontons/algebra/coupled_form.h"
+#include "amontons/base/error.h"
 #include "divided_problem.h"
 
 /// Forms of a problem that is divided over the processes, against those of the whole on each process alone.
@@ -7,6 +11,7 @@ namespace amontons
 namespace
 {
 using test::Deal;
+using test::ElementBlocks;
 using test::LatticeProblem;
 using test::ProblemPart;
 using test::Space;
@@ -52,5 +57,226 @@ TEST_P(DividedProblem, PartsMakeTheWhole)
 INSTANTIATE_TEST_SUITE_P(All, DividedProblem,
                          testing::Combine(testing::Values(Space::plane, Space::axisymmetric, Space::solid),
                                           testing::Values(Deal::even, Deal::in_turn, Deal::last_only)));
+
+std::unique_ptr<SystemForm> coupled_direct(const test::FormProblem &problem)
+{
+  return std::make_unique<CoupledForm>(problem.layout, problem.subdomains, make_direct_solver());
+}
+std::unique_ptr<SystemForm> condensed_direct(const test::FormProblem &problem)
+{
+  return std::make_unique<CondensedForm>(problem.layout, problem.subdomains, make_direct_solver(),
+                                         std::vector<double>{});
+}
+std::unique_ptr<SystemForm> condensed_multigrid(const test::FormProblem &problem)
+{
+  return std::make_unique<CondensedForm>(problem.layout, problem.subdomains, make_amg_solver(), problem.points);
+}
+
+struct Kind
+{
+  std::string name;
+  std::unique_ptr<SystemForm> (*make)(const test::FormProblem &);
+  double accuracy; ///< of a solution
+  friend std::ostream &operator<<(std::ostream &out, const Kind &kind) { return out << kind.name; }
+};
+const Kind coupled{"coupled", coupled_direct, 1e-10}, condensed{"condensed", condensed_direct, 1e-10},
+    multigrid{"multigrid", condensed_multigrid, 1e-8};
+
+/// Against the coupled form of the whole, on each process alone.
+class DividedForms : public testing::TestWithParam<std::tuple<Kind, Space, Deal>>
+{
+protected:
+  [[nodiscard]] static const Kind &kind() { return std::get<0>(GetParam()); }
+  void start(bool held = true)
+  {
+    problem_.make_layout(held);
+    forms_ = std::make_unique<test::DividedForm>(problem_, std::get<2>(GetParam()), coupled_direct, kind().make);
+  }
+  void expect_same_step() { EXPECT_LT(forms_->difference(problem_.random_rhs(), 1e-13), kind().accuracy); }
+  [[nodiscard]] std::size_t n() const { return problem_.patterns.size(); }
+
+  enum class Side
+  {
+    upper,
+    lower,
+    rigid
+  };
+  [[nodiscard]] std::vector<Index> nodes_of(Side side) const
+  {
+    std::vector<Index> out;
+    for (Index node = 0; node < problem_.n_nodes(); ++node)
+      if (side == Side::rigid   ? problem_.is_rigid(node)
+          : side == Side::lower ? problem_.of_lower(node) && !problem_.is_rigid(node) && problem_.height(node) > 0.9
+                                : !problem_.of_lower(node) && problem_.height(node) < 1.2)
+        out.push_back(node);
+    return out;
+  }
+  /// The node and a face of `nodes` from `first` on.
+  void add_pair(Index impactor, const std::vector<Index> &nodes, std::size_t first)
+  {
+    std::vector<Index> all{impactor};
+    for (int k = 0; k < problem_.face_size(); ++k)
+      all.push_back(nodes[(first + k) % nodes.size()]);
+    problem_.add_contact(all);
+  }
+  /// Impactor nodes that are targets too, in chains and in a circle; a node in two contacts; the rigid body on either
+  /// side; a node with held components in axisymmetry (the first ones).
+  void entangle()
+  {
+    const std::vector<Index> upper = nodes_of(Side::upper), lower = nodes_of(Side::lower),
+                             rigid = nodes_of(Side::rigid);
+    problem_.patterns.clear();
+    add_pair(upper[0], lower, 1);
+    add_pair(lower[1], upper, 2);
+    add_pair(upper[2], lower, 2);
+    add_pair(lower[2], upper, 0);
+    add_pair(upper[1], rigid, 0);
+    add_pair(upper[1], lower, 0);
+    add_pair(rigid[0], upper, 2);
+  }
+
+  LatticeProblem problem_{std::get<1>(GetParam())};
+  std::unique_ptr<test::DividedForm> forms_;
+};
+
+/// Last the springs of the rigid body alone change.
+TEST_P(DividedForms, EveryStatusAndChangedBodies)
+{
+  start();
+  for (int round = 0; round < 5; ++round)
+  {
+    SCOPED_TRACE(round);
+    for (std::size_t k = 0; k < n(); ++k)
+      forms_->update_constraint(k, problem_.any_status(static_cast<int>(k) + round));
+    if (round == 3)
+    {
+      for (std::size_t s = 0; s < problem_.subdomains.size(); ++s)
+        for (double &value : problem_.subdomains[s].values)
+          value *= 1 + 0.2 * static_cast<double>(s);
+      forms_->take_bodies(problem_);
+    }
+    if (round == 4)
+    {
+      const Index n = forms_->part().n_rigid;
+      forms_->update_rigid_springs(2 * Eigen::MatrixXd::Identity(n, n));
+    }
+    expect_same_step();
+  }
+  EXPECT_EQ(forms_->divided().counters().n_pattern_builds, 1);
+}
+
+TEST_P(DividedForms, WithoutFrictionItIsSymmetric)
+{
+  start();
+  for (std::size_t k = 0; k < n(); ++k)
+    forms_->update_constraint(k, k % 3 == 0   ? problem_.make.stick()
+                                 : k % 3 == 1 ? problem_.make.frictionless()
+                                              : problem_.make.open());
+  expect_same_step();
+  for (int times = 0; times < 2; ++times) // nothing new: from what is kept
+    expect_same_step();
+}
+
+TEST_P(DividedForms, ImpactorsThatAreTargetsAndRigidOnes)
+{
+  entangle();
+  start();
+  for (int round = 0; round < 4; ++round)
+  {
+    SCOPED_TRACE(round);
+    for (std::size_t k = 0; k < n(); ++k)
+      // In axisymmetry the rigid body moves along the axis only: it cannot stick to two.
+      forms_->update_constraint(k, (k + round) % 4 == 0   ? problem_.make.frictionless()
+                                   : (k + round) % 4 == 1 ? problem_.make.open()
+                                   : (k + round) % 4 == 2 ? problem_.make.slip(0.3, 0.5)
+                                   : k == 0               ? problem_.make.stick()
+                                                          : problem_.make.frictionless());
+    expect_same_step();
+  }
+}
+
+TEST_P(DividedForms, OtherPairs)
+{
+  start();
+  for (const int shift : {0, 1, 3})
+  {
+    std::vector<ConstraintPattern> patterns = problem_.patterns;
+    for (std::size_t k = 0; k < n(); ++k)
+    {
+      const auto &from = problem_.patterns[(k + shift) % n()].nodal;
+      std::copy(from.begin() + problem_.dim, from.end(), patterns[k].nodal.begin() + problem_.dim);
+    }
+    forms_->set_constraints(patterns);
+    for (std::size_t k = 0; k < n(); ++k)
+      forms_->update_constraint(k, problem_.any_status(static_cast<int>(k) + 1));
+    expect_same_step();
+  }
+}
+
+/// Blocks without symmetry on the contacts.
+TEST_P(DividedForms, GeometricStiffness)
+{
+  start();
+  for (std::size_t k = 0; k < n(); ++k)
+  {
+    ElementBlocks element = problem_.any_status(static_cast<int>(k));
+    element.stiffness += 0.1 * problem_.make.numbers(problem_.make.n(), problem_.make.n());
+    forms_->update_constraint(k, element);
+  }
+  expect_same_step();
+}
+
+/// The upper lattice floats: its motions are held in the mean. Then contacts hold it.
+TEST_P(DividedForms, HeldModes)
+{
+  start(false);
+  forms_->set_held_modes(problem_.upper_motions());
+  for (const bool closed : {false, true})
+  {
+    for (std::size_t k = 0; k < n(); ++k)
+      forms_->update_constraint(k, closed ? problem_.any_status(static_cast<int>(k)) : problem_.make.open());
+    expect_same_step();
+  }
+}
+
+TEST_P(DividedForms, FailsOnAllAndGoesOn)
+{
+  start(false);
+  for (std::size_t k = 0; k < n(); ++k)
+    forms_->update_constraint(k, problem_.make.open());
+  EXPECT_THROW(forms_->solve_divided(problem_.random_rhs(), 1e-13), NumericalFailure);
+  for (std::size_t k = 0; k < n(); ++k)
+    forms_->update_constraint(k, problem_.make.stick());
+  expect_same_step();
+}
+
+std::string name_of(Space space)
+{
+  return space == Space::plane ? "plane" : space == Space::axisymmetric ? "axisymmetric" : "solid";
+}
+std::string name_of(Deal deal)
+{
+  return deal == Deal::even ? "even" : deal == Deal::in_turn ? "in_turn" : "last_only";
+}
+std::string name_of(const testing::TestParamInfo<DividedForms::ParamType> &info)
+{
+  const auto &[kind, space, deal] = info.param;
+  return kind.name + "_" + name_of(space) + "_" + name_of(deal);
+}
+
+using testing::Combine;
+using testing::Values;
+constexpr auto named = [](const auto &info) { return name_of(info); };
+INSTANTIATE_TEST_SUITE_P(Direct, DividedForms,
+                         Combine(Values(coupled, condensed), Values(Space::plane, Space::solid), Values(Deal::even)),
+                         named);
+INSTANTIATE_TEST_SUITE_P(Axisymmetric, DividedForms,
+                         Combine(Values(coupled, condensed), Values(Space::axisymmetric), Values(Deal::in_turn)),
+                         named);
+INSTANTIATE_TEST_SUITE_P(EmptyParts, DividedForms,
+                         Combine(Values(coupled, condensed, multigrid), Values(Space::plane), Values(Deal::last_only)),
+                         named);
+INSTANTIATE_TEST_SUITE_P(Multigrid, DividedForms,
+                         Combine(Values(multigrid), Values(Space::solid), Values(Deal::in_turn)), named);
 } // namespace
 } // namespace amontons

@@ -13,9 +13,19 @@ namespace amontons::test
 /// body on every process, first and in the same order.
 struct ProblemPart : FormProblem
 {
-  std::vector<Index> nodes;    ///< [n_nodes] node of the whole
-  std::vector<Index> unknowns; ///< [n_unknowns] unknown of the whole, multipliers too
+  std::vector<Index> nodes;                  ///< [n_nodes] node of the whole
+  std::vector<Index> unknowns;               ///< [n_unknowns] unknown of the whole, multipliers too
+  std::vector<std::size_t> whole_subdomains; ///< [n_subdomains] subdomain of the whole
 
+  /// Patterns over nodes that every process has.
+  [[nodiscard]] std::vector<ConstraintPattern> local(std::vector<ConstraintPattern> whole) const
+  {
+    for (ConstraintPattern &pattern : whole)
+      for (Index &nodal : pattern.nodal)
+        nodal =
+            static_cast<Index>(std::find(nodes.begin(), nodes.end(), nodal / dim) - nodes.begin()) * dim + nodal % dim;
+    return whole;
+  }
   [[nodiscard]] std::vector<double> of(const std::vector<double> &whole) const
   {
     std::vector<double> out;
@@ -54,7 +64,10 @@ public:
     const Communicator &all = messages->communicator();
     for (std::size_t s = 0; s < whole.subdomains.size(); ++s)
       if (rank_of_subdomain(deal, s, whole.subdomains.size(), all.size()) == all.rank())
+      {
         part_.subdomains.push_back(whole.subdomains[s]);
+        part_.whole_subdomains.push_back(s);
+      }
     number_nodes();
     part_.nodes_sharing = Sharing(messages, "nodes", std::vector<GlobalIndex>(part_.nodes.begin(), part_.nodes.end()));
     number_unknowns(std::move(messages));
@@ -101,10 +114,7 @@ private:
       }
     for (const Index node : whole_.contact_nodes)
       part_.contact_nodes.push_back(local_of_[node]);
-    part_.patterns = whole_.patterns;
-    for (ConstraintPattern &pattern : part_.patterns)
-      for (Index &nodal : pattern.nodal)
-        nodal = local_of_[nodal / dim] * dim + nodal % dim;
+    part_.patterns = part_.local(whole_.patterns);
   }
 
   void number_unknowns(std::shared_ptr<MessageExchange> messages)
@@ -157,13 +167,27 @@ public:
     , reference_(make_reference(whole))
     , divided_(make_divided(part_))
   {
-    reference_->set_constraints(whole.patterns, {rigid_unknowns()});
+    set_constraints(whole.patterns);
+  }
+
+  /// @param patterns of the whole; as many multipliers as before
+  void set_constraints(const std::vector<ConstraintPattern> &patterns)
+  {
+    part_.patterns = part_.local(patterns);
+    reference_->set_constraints(patterns, {rigid_unknowns()});
     divided_->set_constraints(part_.patterns, {rigid_unknowns()});
     prepare();
   }
+  /// The bodies' stiffness has changed in the whole.
+  void take_bodies(const FormProblem &whole)
+  {
+    for (std::size_t s = 0; s < part_.subdomains.size(); ++s)
+      part_.subdomains[s].values = whole.subdomains[part_.whole_subdomains[s]].values;
+    for (SystemForm *form : forms())
+      form->update_subdomains();
+  }
 
   [[nodiscard]] const ProblemPart &part() const { return part_; }
-  [[nodiscard]] ProblemPart &part() { return part_; }
   [[nodiscard]] SystemForm &divided() { return *divided_; }
   [[nodiscard]] SystemForm &reference() { return *reference_; }
 
@@ -202,16 +226,22 @@ public:
     prepare();
   }
 
-  /// The greatest difference of the divided form's solution from the reference's, over the latter's length; it must be
-  /// the same on all copies. Collective.
-  double difference(const std::vector<double> &rhs, double tolerance)
+  /// The divided form's solution; it must be the same on all copies. Collective. @param rhs of the whole
+  std::vector<double> solve_divided(const std::vector<double> &rhs, double tolerance)
   {
-    std::vector<double> expected(rhs.size()), x(part_.unknowns.size());
-    reference_->factorize();
-    reference_->solve(rhs, expected, tolerance);
+    std::vector<double> x(part_.unknowns.size());
     divided_->factorize();
     divided_->solve(part_.of(rhs), x, tolerance);
     expect_equal_copies(x);
+    return x;
+  }
+  /// The greatest difference of the divided form's solution from the reference's, over the latter's length. Collective.
+  double difference(const std::vector<double> &rhs, double tolerance)
+  {
+    std::vector<double> expected(rhs.size());
+    reference_->factorize();
+    reference_->solve(rhs, expected, tolerance);
+    const std::vector<double> x = solve_divided(rhs, tolerance);
     const std::vector<double> expected_here = part_.of(expected);
     double worst = 0, size = 0;
     for (std::size_t i = 0; i < x.size(); ++i)

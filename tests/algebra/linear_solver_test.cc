@@ -18,6 +18,7 @@ struct Small
       matrix.values[positions[k]] += entries[k];
   }
   SparseMatrix matrix;
+  Sharing blocks{2};
   std::vector<Index> positions;
 };
 
@@ -36,7 +37,7 @@ TEST(DirectSolver, SolvesAndSaysWhatIsSingular)
 {
   Small small;
   const auto solver = make_direct_solver();
-  solver->set_matrix(small.matrix);
+  solver->set_matrix(small.matrix, small.blocks);
   std::vector<double> x(2);
   const auto solve = [&](const std::vector<double> &entries)
   {

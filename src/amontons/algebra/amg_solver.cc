@@ -24,11 +24,10 @@ constexpr double setup_in_iterations = 30, hopeless = 3;
 class AmgSolver : public LinearSolver
 {
 public:
-  void set_matrix(const SparseMatrix &matrix) override
+  void set_matrix(const SparseMatrix &matrix, const Sharing &blocks) override
   {
-    source_ = &matrix;
     ksp_.reset();
-    matrix_ = PetscMatrix(matrix);
+    matrix_ = PetscMatrix(matrix, blocks);
     ++n_pattern_builds_;
   }
 
@@ -38,7 +37,7 @@ public:
   void factorize() override
   {
     matrix_.values_changed();
-    symmetric_ = is_symmetric(*source_);
+    symmetric_ = matrix_.is_symmetric();
     if (!ksp_ || worse_)
       set_up();
     else
@@ -118,7 +117,7 @@ private:
   void set_up()
   {
     KSP ksp = nullptr;
-    check_petsc(KSPCreate(PETSC_COMM_SELF, &ksp), "solver");
+    check_petsc(KSPCreate(matrix_.communicator(), &ksp), "solver");
     ksp_.reset(ksp);
     check_petsc(KSPSetOptionsPrefix(ksp, "amontons_"), "options");
     attach_modes();
@@ -153,10 +152,8 @@ private:
     std::vector<Vec> basis;
     for (const auto &mode : modes_)
     {
-      Vec vector = nullptr;
-      check_petsc(VecDuplicate(matrix_.rhs(), &vector), "modes");
-      vectors.emplace_back(vector);
-      PetscMatrix::fill(vector, mode);
+      Vec vector = vectors.emplace_back(matrix_.make_vector()).get();
+      matrix_.fill(vector, mode);
       double before = 0, after = 0;
       check_petsc(VecNorm(vector, NORM_2, &before), "modes");
       for (Vec other : basis)
@@ -170,14 +167,13 @@ private:
         basis.push_back(vector);
     }
     MatNullSpace space = nullptr;
-    check_petsc(
-        MatNullSpaceCreate(PETSC_COMM_SELF, PETSC_FALSE, static_cast<PetscInt>(basis.size()), basis.data(), &space),
-        "modes");
+    check_petsc(MatNullSpaceCreate(matrix_.communicator(), PETSC_FALSE, static_cast<PetscInt>(basis.size()),
+                                   basis.data(), &space),
+                "modes");
     check_petsc(MatSetNearNullSpace(matrix_.get(), space), "modes");
     check_petsc(MatNullSpaceDestroy(&space), "modes");
   }
 
-  const SparseMatrix *source_ = nullptr;
   PetscMatrix matrix_;
   KspHandle ksp_;
   std::vector<std::vector<double>> modes_;

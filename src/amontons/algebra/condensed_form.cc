@@ -2,6 +2,7 @@
 
 #include "amontons/algebra/rigid_modes.h"
 #include "amontons/base/error.h"
+#include "amontons/parallel/agreement.h"
 
 #include <Eigen/LU>
 
@@ -12,14 +13,6 @@ namespace amontons
 {
 namespace
 {
-double dot(std::span<const double> a, std::span<const double> b)
-{
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 /// A row over the element's positions as a row over the unknowns.
 template<class Row>
 std::vector<Term> over_unknowns(const Layout &layout, const ConstraintPattern &pattern, const Row &row)
@@ -113,6 +106,22 @@ void CondensedForm::eliminate()
   elimination_.compute(layout_.n_displacement_unknowns(), groups, symmetric);
 }
 
+/// The unknown that moves most, of equal ones that of the lowest number, the same on all processes. @return -1 for
+/// another process's
+Index CondensedForm::choose_pin(std::span<const double> mode) const
+{
+  const Sharing &unknowns = layout_.sharing();
+  Index best = -1;
+  for (Index i = 0; i < unknowns.size(); ++i)
+    if (unknowns.is_own(i) && (best < 0 || std::abs(mode[i]) > std::abs(mode[best])))
+      best = i;
+  const double most = unknowns.maximum_over_processes(best < 0 ? 0 : std::abs(mode[best]));
+  const bool is_candidate = best >= 0 && std::abs(mode[best]) == most;
+  const auto number = static_cast<double>(is_candidate ? unknowns.number(best) : unknowns.n_global());
+  const double lowest = -unknowns.maximum_over_processes(-number);
+  return is_candidate && number == lowest ? best : -1;
+}
+
 /// As many unknowns as there are modes, on which the modes are independent: the largest ones left, one after the other.
 void CondensedForm::place_pins()
 {
@@ -127,18 +136,20 @@ void CondensedForm::place_pins()
   }
   for (std::size_t m = 0; m < rest.size(); ++m)
   {
-    const auto pin =
-        std::max_element(rest[m].begin(), rest[m].end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
-        rest[m].begin();
-    if (rest[m][pin] == 0)
+    const Index pin = choose_pin(rest[m]);
+    std::vector<double> at_pin(rest.size(), 0.0);
+    for (std::size_t k = m; k < rest.size() && pin >= 0; ++k)
+      at_pin[k] = rest[k][pin];
+    layout_.sharing().sum_over_processes(at_pin);
+    if (at_pin[m] == 0)
       throw NumericalFailure("the tangent matrix is singular: the motions to be held depend on each other");
     for (std::size_t k = m + 1; k < rest.size(); ++k)
     {
-      const double factor = rest[k][pin] / rest[m][pin];
+      const double factor = at_pin[k] / at_pin[m];
       for (std::size_t i = 0; i < rest[k].size(); ++i)
         rest[k][i] -= factor * rest[m][i];
     }
-    pins_.push_back(matrix_.blocks().row(static_cast<Index>(pin)));
+    pins_.push_back(pin < 0 ? -1 : matrix_.blocks().row(pin));
   }
   matrix_.set_pins(pins_);
 }
@@ -157,11 +168,11 @@ void CondensedForm::factorize()
   if (!subdomains_changed_ && !constraints_changed_ && !modes_changed_)
     return;
   if (subdomains_changed_ || constraints_changed_)
-    eliminate();
+    agree_on_errors(layout_.sharing(), [&] { eliminate(); });
   if (modes_changed_ || !modes_.empty())
     place_pins();
   if (matrix_.update(elimination_, subdomains_changed_))
-    solver_->set_matrix(matrix_.matrix());
+    solver_->set_matrix(matrix_.matrix(), matrix_.blocks().sharing());
   if (solver_->wants_smooth_modes())
     set_smooth_modes();
   subdomains_changed_ = constraints_changed_ = modes_changed_ = true; // should it fail
@@ -193,6 +204,20 @@ void CondensedForm::expand(std::span<const double> x, std::span<double> motion) 
       motion[slave] += term.coefficient * x[matrix_.blocks().row(term.unknown)];
 }
 
+double CondensedForm::reduced_dot(std::span<const double> a, std::span<const double> b) const
+{
+  return matrix_.blocks().sharing().dot(a, b, matrix_.blocks().block_size());
+}
+
+Eigen::VectorXd CondensedForm::at_pins(std::span<const double> reduced) const
+{
+  Eigen::VectorXd out(static_cast<Eigen::Index>(pins_.size()));
+  for (Eigen::Index m = 0; m < out.size(); ++m)
+    out[m] = pins_[m] < 0 ? 0 : reduced[pins_[m]];
+  layout_.sharing().sum_over_processes({out.data(), pins_.size()});
+  return out;
+}
+
 std::vector<double> CondensedForm::solve_reduced(std::span<const double> forces, double tolerance)
 {
   std::vector<double> x(forces.size());
@@ -212,7 +237,8 @@ std::vector<double> CondensedForm::solve_bordered(std::span<const double> forces
   for (Eigen::Index m = 0; m < k; ++m)
   {
     std::vector<double> pinned(x.size(), 0.0), motion(x.size(), 0.0);
-    pinned[pins_[m]] = alpha;
+    if (pins_[m] >= 0)
+      pinned[pins_[m]] = alpha;
     by_pin.push_back(solve_reduced(pinned, 0));
     by_mode.push_back(solve_reduced(reduced(modes_[m]), 0));
     for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
@@ -225,17 +251,17 @@ std::vector<double> CondensedForm::solve_bordered(std::span<const double> forces
   }
   Eigen::MatrixXd small = Eigen::MatrixXd::Zero(2 * k, 2 * k);
   Eigen::VectorXd right(2 * k);
-  for (Eigen::Index i = 0; i < k; ++i)
+  right.head(k) = at_pins(x);
+  for (Eigen::Index j = 0; j < k; ++j)
   {
-    for (Eigen::Index j = 0; j < k; ++j)
+    small.col(j).head(k) = Eigen::VectorXd::Unit(k, j) - at_pins(by_pin[j]);
+    small.col(k + j).head(k) = at_pins(by_mode[j]);
+    for (Eigen::Index i = 0; i < k; ++i)
     {
-      small(i, j) = (i == j ? 1 : 0) - by_pin[j][pins_[i]];
-      small(i, k + j) = by_mode[j][pins_[i]];
-      small(k + i, j) = dot(b[i], by_pin[j]);
-      small(k + i, k + j) = -dot(b[i], by_mode[j]);
+      small(k + i, j) = reduced_dot(b[i], by_pin[j]);
+      small(k + i, k + j) = -reduced_dot(b[i], by_mode[j]);
     }
-    right[i] = x[pins_[i]];
-    right[k + i] = -dot(modes_[i], offset) - dot(b[i], x);
+    right[k + j] = -layout_.sharing().dot(modes_[j], offset) - reduced_dot(b[j], x);
   }
   const Eigen::VectorXd solution = small.fullPivLu().solve(right);
   for (Eigen::Index m = 0; m < k; ++m)
@@ -249,7 +275,7 @@ void CondensedForm::solve(std::span<const double> rhs, std::span<double> solutio
 {
   const auto n = static_cast<std::size_t>(layout_.n_displacement_unknowns());
   std::vector<double> forces(rhs.begin(), rhs.begin() + static_cast<std::ptrdiff_t>(n)), right_side;
-  double size2 = dot(forces, forces);
+  double size2 = layout_.sharing().dot(forces, forces);
   std::vector<Eigen::VectorXd> of_constraint(rows_.size());
   for (std::size_t k = 0; k < rows_.size(); ++k)
   {
@@ -265,23 +291,22 @@ void CondensedForm::solve(std::span<const double> rhs, std::span<double> solutio
     right_side.insert(right_side.end(), gap.data(), gap.data() + gap.size());
   }
 
-  std::vector<double> offset(n, 0.0), motion(n, 0.0), resisted(n, 0.0);
+  std::vector<double> offset(n, 0.0);
   for (const Index slave : elimination_.slaves())
     for (const Term &term : elimination_.offset(slave))
       offset[slave] += term.coefficient * right_side[term.unknown];
-  matrix_.multiply_add(offset, resisted);
+  std::vector<double> resisted = matrix_.multiply(offset);
   for (std::size_t i = 0; i < n; ++i)
     resisted[i] = forces[i] - resisted[i];
   const double absolute = tolerance * std::sqrt(size2);
   mode_reactions_.clear();
   const std::vector<double> x =
       modes_.empty() ? solve_reduced(reduced(resisted), absolute) : solve_bordered(resisted, offset, absolute);
-  motion = offset;
+  std::vector<double> motion = offset;
   expand(x, motion);
 
   // The slaves' own equilibrium gives the reactions of the rows.
-  std::fill(resisted.begin(), resisted.end(), 0.0);
-  matrix_.multiply_add(motion, resisted);
+  resisted = matrix_.multiply(motion);
   for (std::size_t m = 0; m < modes_.size(); ++m)
     for (std::size_t i = 0; i < n; ++i)
       resisted[i] += modes_[m][i] * mode_reactions_[m];

@@ -16,12 +16,15 @@ namespace amontons
 /// Held modes border the reduced matrix A, which may be singular without them. A + alpha P P^T with as many pinned
 /// unknowns P as there are modes is regular; what the pins do is taken back by a small dense system for the reactions
 /// and the pinned motions (Sherman, Morrison, Woodbury): exact, and A's pattern and symmetry stay.
+///
+/// Over several processes what concerns the constraints is computed by each alike, what concerns the bodies by each for
+/// its own.
 class CondensedForm : public SystemForm
 {
 public:
+  /// Collective.
   /// @param reference places of the nodal components [n_nodal], length: rigid motions for multigrid. May be empty with
-  /// a
-  ///        direct solver
+  ///        a direct solver
   CondensedForm(const Layout &layout, std::span<const SubdomainMatrix> subdomains, std::unique_ptr<LinearSolver> solver,
                 std::vector<double> reference);
 
@@ -42,6 +45,9 @@ private:
   void eliminate();
   void place_pins();
   void set_smooth_modes();
+  [[nodiscard]] Index choose_pin(std::span<const double> mode) const;
+  [[nodiscard]] Eigen::VectorXd at_pins(std::span<const double> reduced) const;
+  [[nodiscard]] double reduced_dot(std::span<const double> a, std::span<const double> b) const;
   [[nodiscard]] std::vector<double> reduced(std::span<const double> forces) const;
   [[nodiscard]] std::vector<double> solve_reduced(std::span<const double> forces, double tolerance);
   [[nodiscard]] std::vector<double> solve_bordered(std::span<const double> forces, std::span<const double> offset,
@@ -59,7 +65,7 @@ private:
   std::vector<Eigen::MatrixXd> dense_blocks_;
   ConstraintElimination elimination_;
   std::vector<std::vector<double>> modes_;
-  std::vector<Index> pins_; ///< rows of the reduced matrix
+  std::vector<Index> pins_; ///< rows of the reduced matrix; -1 for another process's
   std::vector<double> mode_reactions_;
   bool prepared_ = false, subdomains_changed_ = true, constraints_changed_ = true, modes_changed_ = false;
 };

@@ -1,8 +1,10 @@
 #include "amontons/algebra/condensed_matrix.h"
 
 #include "amontons/base/error.h"
+#include "amontons/parallel/agreement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace amontons
@@ -20,156 +22,17 @@ CondensedMatrix::CondensedMatrix(const Layout &layout, std::span<const Subdomain
       direct_[nodal] = blocks_.row(terms[0].unknown);
 }
 
-void CondensedMatrix::set_constraints(std::span<const ConstraintPattern> patterns,
-                                      std::span<const ConstraintRows> constraints,
-                                      std::span<const std::vector<Index>> dense_unknowns,
-                                      std::span<const Eigen::MatrixXd> dense_blocks)
-{
-  patterns_ = patterns;
-  constraints_ = constraints;
-  dense_unknowns_ = dense_unknowns;
-  dense_blocks_ = dense_blocks;
-  pattern_stands_ = false;
-  constraints_of_node_.assign(static_cast<std::size_t>(blocks_.n_nodes()), {});
-  masters_.assign(static_cast<std::size_t>(blocks_.n_blocks()), {});
-  const int n = blocks_.block_size();
-  for (std::size_t k = 0; k < patterns_.size(); ++k)
-    for (int a = 0; a < patterns_[k].n_nodal(); a += n)
-    {
-      auto &of_node = constraints_of_node_[patterns_[k].nodal[a] / n];
-      if (of_node.empty() || of_node.back() != static_cast<Index>(k))
-        of_node.push_back(static_cast<Index>(k));
-      for (const Index slave : blocks_.blocks_of_node(patterns_[k].nodal[0] / n))
-        if (blocks_.nodes_of_block(slave).size() == 1)
-          for (const Index master : blocks_.blocks_of_node(patterns_[k].nodal[a] / n))
-            masters_[slave].push_back(master);
-    }
-  for (auto &masters : masters_)
-  {
-    std::sort(masters.begin(), masters.end());
-    masters.erase(std::unique(masters.begin(), masters.end()), masters.end());
-  }
-}
-
 void CondensedMatrix::set_pins(std::vector<Index> rows)
 {
   old_pins_.insert(old_pins_.end(), pins_.begin(), pins_.end());
   pins_ = std::move(rows);
-}
-
-/// Takes note of what slaves follow beyond the nodes of their face. @return whether the pattern is too small
-bool CondensedMatrix::extend_fill(const ConstraintElimination &elimination)
-{
-  bool grown = false;
-  for (const Index slave : elimination.slaves())
-  {
-    auto &masters = masters_[blocks_.block(slave)];
-    for (const auto &terms : {elimination.motion(slave), elimination.weights(slave)})
-      for (const Term &term : terms)
-      {
-        const Index block = blocks_.block(term.unknown);
-        const auto place = std::lower_bound(masters.begin(), masters.end(), block);
-        if (place != masters.end() && *place == block)
-          continue;
-        masters.insert(place, block);
-        grown = true;
-      }
-  }
-  return grown;
-}
-
-void CondensedMatrix::add_column(Index block, std::vector<Index> &columns)
-{
-  if (mark_[block] == stamp_)
-    return;
-  mark_[block] = stamp_;
-  columns.push_back(block);
-}
-
-/// Columns of everything that moves a node or one that shares a cell or a constraint with it.
-void CondensedMatrix::add_neighbours(Index node, std::vector<Index> &columns)
-{
-  const auto add_node = [&](Index other)
-  {
-    for (const Index block : blocks_.blocks_of_node(other))
-    {
-      add_column(block, columns);
-      for (const Index master : masters_[block])
-        add_column(master, columns);
-    }
-  };
-  const int n = blocks_.block_size();
-  for (const auto &[s, local] : blocks_.copies(node))
-  {
-    const SubdomainMatrix &matrix = subdomains_[s];
-    const Index row = local * n;
-    for (Index k = matrix.row_ptr[row]; k < matrix.row_ptr[row + 1]; k += n)
-      add_node(matrix.nodes[matrix.col[k] / n]);
-  }
-  for (const Index k : constraints_of_node_[node])
-    for (int a = 0; a < patterns_[k].n_nodal(); a += n)
-      add_node(patterns_[k].nodal[a] / n);
-}
-
-void CondensedMatrix::collect_columns(Index block, std::vector<Index> &columns)
-{
-  ++stamp_;
-  columns.clear();
-  add_column(block, columns);
-  for (const Index node : blocks_.nodes_of_block(block))
-    add_neighbours(node, columns);
-  for (const Index slave : slaves_[block])
-    for (const Index node : blocks_.nodes_of_block(slave))
-      add_neighbours(node, columns);
-  const int n = blocks_.block_size();
-  for (int c = 0; c < n; ++c)
-    if (const Index unknown = blocks_.unknown(block * n + c); unknown >= 0)
-      for (const auto &dense : dense_unknowns_)
-        if (std::find(dense.begin(), dense.end(), unknown) != dense.end())
-          for (const Index other : dense)
-            add_column(blocks_.block(other), columns);
-  std::sort(columns.begin(), columns.end());
-}
-
-void CondensedMatrix::build_pattern()
-{
-  const Index n_blocks = blocks_.n_blocks();
-  const int n = blocks_.block_size();
-  slaves_.assign(static_cast<std::size_t>(n_blocks), {});
-  for (Index slave = 0; slave < n_blocks; ++slave)
-    for (const Index master : masters_[slave])
-      if (master != slave)
-        slaves_[master].push_back(slave);
-  mark_.assign(static_cast<std::size_t>(n_blocks), -1);
-  stamp_ = -1;
-  affected_.clear();
-  matrix_.row_ptr.assign(1, 0);
-  matrix_.col.clear();
-  std::vector<Index> columns;
-  for (Index block = 0; block < n_blocks; ++block)
-  {
-    collect_columns(block, columns);
-    for (int c = 0; c < n; ++c)
-    {
-      for (const Index column : columns)
-        for (int d = 0; d < n; ++d)
-          matrix_.col.push_back(column * n + d);
-      matrix_.row_ptr.push_back(static_cast<Index>(matrix_.col.size()));
-    }
-    // Columns of a slave's neighbours are those of its masters, so these rows are among the affected ones.
-    if (std::any_of(columns.begin(), columns.end(),
-                    [&](Index b) { return !masters_[b].empty() || !slaves_[b].empty(); }))
-      affected_.push_back(block);
-  }
-  matrix_.values.assign(matrix_.col.size(), 0.0);
-  place_.assign(static_cast<std::size_t>(blocks_.n_rows()), -1);
-  pattern_stands_ = true;
+  std::erase(pins_, -1);
 }
 
 void CondensedMatrix::find_mean_diagonal()
 {
-  double sum = 0;
-  Index n = 0;
+  std::array<double, 2> sum_and_count{};
+  auto &[sum, n] = sum_and_count;
   for (const SubdomainMatrix &matrix : subdomains_)
     for (Index row = 0; row < matrix.n_rows(); ++row)
     {
@@ -177,6 +40,7 @@ void CondensedMatrix::find_mean_diagonal()
       sum += std::abs(matrix.values[std::lower_bound(begin, end, row) - matrix.col.begin()]);
       ++n;
     }
+  layout_.sharing().sum_over_processes(sum_and_count);
   mean_diagonal_ = sum > 0 ? sum / n : 1;
 }
 
@@ -205,11 +69,18 @@ void CondensedMatrix::prepare_columns(const ConstraintElimination &elimination)
 
 bool CondensedMatrix::update(const ConstraintElimination &elimination, bool everything)
 {
+  if (everything)
+    find_mean_diagonal();
+  bool rebuilt = false;
+  agree_on_errors(layout_.sharing(), [&] { rebuilt = make_values(elimination, everything); });
+  return rebuilt;
+}
+
+bool CondensedMatrix::make_values(const ConstraintElimination &elimination, bool everything)
+{
   const bool rebuild = extend_fill(elimination) || !pattern_stands_;
   if (rebuild)
     build_pattern();
-  if (everything)
-    find_mean_diagonal();
   prepare_columns(elimination);
   const int n = blocks_.block_size();
   if (everything || rebuild)
@@ -241,7 +112,10 @@ void CondensedMatrix::make_row(Index row, const ConstraintElimination &eliminati
     place_[matrix_.col[k]] = k;
   const Index unknown = blocks_.unknown(row);
   if (unknown < 0 || elimination.is_slave(unknown))
-    matrix_.values[place_[row]] = mean_diagonal_;
+  {
+    if (blocks_.is_own_row(row))
+      matrix_.values[place_[row]] = mean_diagonal_;
+  }
   else
   {
     add_row_of(unknown, 1, elimination);
@@ -286,7 +160,7 @@ void CondensedMatrix::add_row_of(Index unknown, double weight, const ConstraintE
       }
       visit_contact_row(nodal, [&](Index column, double value) { add_nodal(column, factor * value, elimination); });
     }
-  for (std::size_t d = 0; d < dense_unknowns_.size(); ++d)
+  for (const Index d : counted_dense_)
     for (std::size_t i = 0; i < dense_unknowns_[d].size(); ++i)
       if (dense_unknowns_[d][i] == unknown)
         for (std::size_t j = 0; j < dense_unknowns_[d].size(); ++j)
@@ -324,24 +198,26 @@ void CondensedMatrix::add_unknown(Index unknown, double value, const ConstraintE
     add_at(blocks_.row(term.unknown), value * term.coefficient);
 }
 
-void CondensedMatrix::multiply_add(std::span<const double> motion, std::span<double> forces) const
+std::vector<double> CondensedMatrix::multiply(std::span<const double> motion) const
 {
-  std::vector<double> nodal(direct_.size(), 0.0), nodal_forces(direct_.size(), 0.0);
+  std::vector<double> nodal(direct_.size(), 0.0), nodal_forces(direct_.size(), 0.0), forces(motion.size(), 0.0);
   for (Index i = 0; i < layout_.n_nodal(); ++i)
     for (const Term &term : layout_.terms(i))
       nodal[i] += term.coefficient * motion[term.unknown];
   for (const SubdomainMatrix &matrix : subdomains_)
-    amontons::multiply_add(matrix, nodal, nodal_forces);
-  for (std::size_t k = 0; k < patterns_.size(); ++k)
+    multiply_add(matrix, nodal, nodal_forces);
+  for (const Index k : counted_constraints_)
     if (const Eigen::MatrixXd &stiffness = constraints_[k].stiffness; stiffness.size() > 0)
       for (int a = 0; a < patterns_[k].n_nodal(); ++a)
         for (int b = 0; b < patterns_[k].n_nodal(); ++b)
           nodal_forces[patterns_[k].nodal[a]] += stiffness(a, b) * nodal[patterns_[k].nodal[b]];
   layout_.gather(nodal_forces, forces);
-  for (std::size_t d = 0; d < dense_unknowns_.size(); ++d)
+  for (const Index d : counted_dense_)
     for (std::size_t i = 0; i < dense_unknowns_[d].size(); ++i)
       for (std::size_t j = 0; j < dense_unknowns_[d].size(); ++j)
         forces[dense_unknowns_[d][i]] += dense_blocks_[d](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
                                          motion[dense_unknowns_[d][j]];
+  layout_.sharing().sum(forces);
+  return forces;
 }
 } // namespace amontons

@@ -15,9 +15,14 @@ namespace amontons
 ///
 /// The pattern holds whatever statuses the constraints take: each impactor node may be a slave of the nodes of its
 /// face. Only rows of contact nodes and their neighbours are made anew when constraints change.
+///
+/// Over several processes the elimination is the same on all, and each makes W^T K_p T of its part K_p of the
+/// stiffness, to which a constraint, a dense block and a diagonal entry belong on one process only. The reduced matrix
+/// is the sum.
 class CondensedMatrix
 {
 public:
+  /// Collective.
   CondensedMatrix(const Layout &layout, std::span<const SubdomainMatrix> subdomains);
 
   [[nodiscard]] const NodeBlocks &blocks() const { return blocks_; }
@@ -27,18 +32,19 @@ public:
   void set_constraints(std::span<const ConstraintPattern> patterns, std::span<const ConstraintRows> constraints,
                        std::span<const std::vector<Index>> dense_unknowns,
                        std::span<const Eigen::MatrixXd> dense_blocks);
-  /// Diagonal entries that are added, of the size of the stiffness. @param rows of unknowns
+  /// Diagonal entries that are added, of the size of the stiffness. @param rows of unknowns; -1 for another process's
   void set_pins(std::vector<Index> rows);
   [[nodiscard]] double pin_stiffness() const { return mean_diagonal_; }
 
   /// Brings the values to the present ones. @param everything the bodies' stiffness (or the layout's coefficients)
-  /// changed, not the constraints alone @return whether the pattern is a new one
+  /// changed, not the constraints alone @return whether the pattern is a new one; the same on all. Collective.
   bool update(const ConstraintElimination &elimination, bool everything);
 
-  /// forces += K motion over the unknowns, before elimination.
-  void multiply_add(std::span<const double> motion, std::span<double> forces) const;
+  /// K motion over the unknowns, before elimination: whole on every copy. Collective.
+  [[nodiscard]] std::vector<double> multiply(std::span<const double> motion) const;
 
 private:
+  bool make_values(const ConstraintElimination &elimination, bool everything);
   bool extend_fill(const ConstraintElimination &elimination);
   void build_pattern();
   void collect_columns(Index block, std::vector<Index> &columns);
@@ -59,6 +65,7 @@ private:
   NodeBlocks blocks_;
   std::span<const ConstraintPattern> patterns_;
   std::span<const ConstraintRows> constraints_;
+  std::vector<Index> counted_constraints_, counted_dense_; ///< here
   std::span<const std::vector<Index>> dense_unknowns_;
   std::span<const Eigen::MatrixXd> dense_blocks_;
   std::vector<std::vector<Index>> constraints_of_node_;

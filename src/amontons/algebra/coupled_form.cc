@@ -1,5 +1,7 @@
 #include "amontons/algebra/coupled_form.h"
 
+#include "amontons/parallel/agreement.h"
+
 #include <algorithm>
 
 namespace amontons
@@ -55,6 +57,12 @@ void CoupledForm::set_constraints(std::vector<ConstraintPattern> constraints,
 {
   constraints_ = std::move(constraints);
   dense_blocks_ = std::move(dense_blocks);
+  counts_constraint_.clear();
+  for (const ConstraintPattern &pattern : constraints_)
+    counts_constraint_.push_back(layout_.counts_here(pattern.nodal));
+  counts_dense_block_.clear();
+  for (const auto &block : dense_blocks_)
+    counts_dense_block_.push_back(!block.empty() && layout_.sharing().is_own(block.front()));
   pattern_built_ = false;
 }
 
@@ -77,49 +85,69 @@ void CoupledForm::build_pattern()
   };
   visit_subdomains([&](Index i, Index j, double, double) { add(i, j); });
   constraint_offsets_.clear();
-  for (const ConstraintPattern &pattern : constraints_)
+  for (std::size_t k = 0; k < constraints_.size(); ++k)
   {
     constraint_offsets_.push_back(rows.size());
-    visit_constraint(pattern, [&](Index i, Index j, double, int, int, int) { add(i, j); });
+    if (counts_constraint_[k] != 0)
+      visit_constraint(constraints_[k], [&](Index i, Index j, double, int, int, int) { add(i, j); });
   }
   dense_offsets_.clear();
-  for (const auto &block : dense_blocks_)
+  for (std::size_t k = 0; k < dense_blocks_.size(); ++k)
   {
     dense_offsets_.push_back(rows.size());
-    for (const Index i : block)
-      for (const Index j : block)
-        add(i, j);
+    if (counts_dense_block_[k] != 0)
+      for (const Index i : dense_blocks_[k])
+        for (const Index j : dense_blocks_[k])
+          add(i, j);
   }
-  const std::size_t mode_offset = rows.size();
+  entries_.assign(rows.size(), 0);
   for (std::size_t m = 0; m < modes_.size(); ++m)
   {
     const Index border = layout_.n_unknowns() + static_cast<Index>(m);
     for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
-      if (modes_[m][i] != 0)
+      if (modes_[m][i] != 0 && layout_.sharing().is_own(i))
       {
         add(i, border);
         add(border, i);
+        entries_.insert(entries_.end(), 2, modes_[m][i]);
       }
   }
-  entries_.assign(rows.size(), 0);
-  std::size_t k = mode_offset;
-  for (const auto &mode : modes_)
-    for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
-      if (mode[i] != 0)
-      {
-        entries_[k++] = mode[i];
-        entries_[k++] = mode[i];
-      }
   positions_ = make_pattern(matrix_, layout_.n_unknowns() + static_cast<Index>(modes_.size()), rows, cols);
-  solver_->set_matrix(matrix_);
-  pattern_built_ = true;
+}
+
+/// Rows of multipliers belong to who counts their constraint.
+void CoupledForm::share_rows()
+{
+  const Sharing &unknowns = layout_.sharing();
+  if (!unknowns.is_distributed())
+  {
+    rows_ = Sharing(matrix_.n_rows());
+    return;
+  }
+  std::vector<GlobalIndex> ids;
+  std::vector<char> preferred(static_cast<std::size_t>(matrix_.n_rows()), 0);
+  for (Index i = 0; i < matrix_.n_rows(); ++i)
+    if (i < unknowns.size())
+    {
+      ids.push_back(unknowns.number(i));
+      preferred[i] = unknowns.is_own(i);
+    }
+    else
+      ids.push_back(unknowns.n_global() + i - unknowns.size());
+  for (std::size_t k = 0; k < constraints_.size(); ++k)
+    for (int m = 0; m < constraints_[k].n_multipliers; ++m)
+      preferred[layout_.multiplier(constraints_[k].multipliers[m])] = counts_constraint_[k];
+  rows_ = Sharing(unknowns.messages(), "linear system", ids, preferred);
 }
 
 bool CoupledForm::prepare()
 {
   if (pattern_built_)
     return false;
-  build_pattern();
+  agree_on_errors(layout_.sharing(), [&] { build_pattern(); });
+  share_rows();
+  solver_->set_matrix(matrix_, rows_);
+  pattern_built_ = true;
   return true;
 }
 
@@ -131,6 +159,8 @@ void CoupledForm::update_subdomains()
 
 void CoupledForm::update_constraint(std::size_t constraint, const ConstraintValues &v)
 {
+  if (counts_constraint_[constraint] == 0)
+    return;
   std::size_t k = constraint_offsets_[constraint];
   const std::array<const Eigen::Ref<const Eigen::MatrixXd> *, 4> blocks{
       &v.stiffness, &v.force_by_multiplier, &v.constraint_by_position, &v.constraint_by_multiplier};
@@ -140,6 +170,8 @@ void CoupledForm::update_constraint(std::size_t constraint, const ConstraintValu
 
 void CoupledForm::update_dense_block(std::size_t block, const Eigen::MatrixXd &values)
 {
+  if (counts_dense_block_[block] == 0)
+    return;
   std::size_t k = dense_offsets_[block];
   for (Eigen::Index i = 0; i < values.rows(); ++i)
     for (Eigen::Index j = 0; j < values.cols(); ++j)

@@ -2,8 +2,6 @@
 #include "amontons/algebra/petsc.h"
 #include "amontons/algebra/petsc_matrix.h"
 
-#include <cmath>
-
 namespace amontons
 {
 namespace
@@ -14,14 +12,16 @@ constexpr double contradiction = 1e-9;
 /// Room beyond what the analysis foresees, per cent.
 constexpr PetscInt least_workspace = 50, most_workspace = 3200;
 
+/// Times that a solution is refined by its residual.
+constexpr PetscInt refinements = 2;
+
 class DirectSolver : public LinearSolver
 {
 public:
-  void set_matrix(const SparseMatrix &matrix) override
+  void set_matrix(const SparseMatrix &matrix, const Sharing &blocks) override
   {
-    source_ = &matrix;
     ksp_.reset();
-    matrix_ = PetscMatrix(matrix);
+    matrix_ = PetscMatrix(matrix, blocks);
     ++n_pattern_builds_;
   }
 
@@ -29,7 +29,7 @@ public:
   {
     ++n_factorizations_;
     matrix_.values_changed();
-    const bool symmetric = is_symmetric(*source_);
+    const bool symmetric = matrix_.is_symmetric();
     if (!ksp_ || symmetric != symmetric_)
       create_ksp(symmetric);
     PCFailedReason reason = attempt();
@@ -55,7 +55,7 @@ public:
     ++n_iterations_;
     matrix_.get_solution(solution);
     if (n_null_pivots_ > 0)
-      check_residual(rhs, solution);
+      check_residual();
   }
 
   [[nodiscard]] std::int64_t n_factorizations() const override { return n_factorizations_; }
@@ -79,11 +79,11 @@ private:
   {
     symmetric_ = symmetric;
     KSP ksp = nullptr;
-    check_petsc(KSPCreate(PETSC_COMM_SELF, &ksp), "solver");
+    check_petsc(KSPCreate(matrix_.communicator(), &ksp), "solver");
     ksp_.reset(ksp);
     check_petsc(MatSetOption(matrix_.get(), MAT_SYMMETRIC, symmetric ? PETSC_TRUE : PETSC_FALSE), "symmetry");
     check_petsc(KSPSetOperators(ksp, matrix_.get(), matrix_.get()), "operator");
-    check_petsc(KSPSetType(ksp, KSPPREONLY), "solver type");
+    choose_refinement(ksp);
     PC pc = nullptr;
     check_petsc(KSPGetPC(ksp, &pc), "preconditioner");
     check_petsc(PCSetType(pc, symmetric ? PCCHOLESKY : PCLU), "factorisation type");
@@ -92,23 +92,28 @@ private:
     Mat factor = nullptr;
     check_petsc(PCFactorGetMatrix(pc, &factor), "MUMPS");
     check_petsc(MatMumpsSetIcntl(factor, 14, workspace_), "MUMPS workspace");
-    check_petsc(MatMumpsSetIcntl(factor, 10, 2), "MUMPS refinement");
+    check_petsc(MatMumpsSetIcntl(factor, 10, refinements), "MUMPS refinement");
     check_petsc(MatMumpsSetIcntl(factor, 24, 1), "MUMPS null pivots");
   }
 
-  /// Unknowns of null pivots were set to zero: right if the equations do not contradict each other.
-  void check_residual(std::span<const double> rhs, std::span<const double> solution) const
+  /// MUMPS itself refines a solution on one process only.
+  void choose_refinement(KSP ksp) const
   {
-    double residual = 0, size = 0;
-    for (Index i = 0; i < source_->n_rows(); ++i)
-    {
-      double row = rhs[i];
-      for (Index k = source_->row_ptr[i]; k < source_->row_ptr[i + 1]; ++k)
-        row -= source_->values[k] * solution[source_->col[k]];
-      residual += row * row;
-      size += rhs[i] * rhs[i];
-    }
-    if (!(std::sqrt(residual) <= contradiction * std::sqrt(size)))
+    check_petsc(KSPSetType(ksp, matrix_.is_distributed() ? KSPRICHARDSON : KSPPREONLY), "solver type");
+    check_petsc(KSPSetNormType(ksp, KSP_NORM_NONE), "norm");
+    check_petsc(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, 1 + refinements), "refinement");
+  }
+
+  /// Unknowns of null pivots were set to zero: right if the equations do not contradict each other.
+  void check_residual() const
+  {
+    const VecHandle residual = matrix_.make_vector();
+    double left = 0, size = 0;
+    check_petsc(MatMult(matrix_.get(), matrix_.solution(), residual.get()), "residual");
+    check_petsc(VecAYPX(residual.get(), -1, matrix_.rhs()), "residual");
+    check_petsc(VecNorm(residual.get(), NORM_2, &left), "residual");
+    check_petsc(VecNorm(matrix_.rhs(), NORM_2, &size), "residual");
+    if (!(left <= contradiction * size))
       throw NumericalFailure("the tangent matrix is singular");
   }
 
@@ -121,7 +126,6 @@ private:
     return n;
   }
 
-  const SparseMatrix *source_ = nullptr;
   PetscMatrix matrix_;
   KspHandle ksp_;
   bool symmetric_ = false;

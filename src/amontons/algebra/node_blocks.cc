@@ -8,12 +8,14 @@ NodeBlocks::NodeBlocks(const Layout &layout, std::span<const SubdomainMatrix> su
 {
   if (!subdomains.empty())
     size_ = subdomains.front().n_components;
+  size_ = static_cast<int>(layout.sharing().maximum_over_processes(size_));
   std::vector<std::pair<Index, Index>> entries;
   for (Index nodal = 0; nodal < layout.n_nodal(); ++nodal)
     for (const Term &term : layout.terms(nodal))
       entries.emplace_back(term.unknown, nodal);
   nodal_of_unknown_ = {layout.n_displacement_unknowns(), entries};
   number_rows(layout);
+  share_blocks(layout.sharing());
 
   entries.clear();
   const Index n_nodes = layout.n_nodal() / size_;
@@ -64,5 +66,23 @@ void NodeBlocks::number_rows(const Layout &layout)
       unknown_of_row_.push_back(unknown);
     }
   unknown_of_row_.resize((unknown_of_row_.size() + size_ - 1) / size_ * size_, -1);
+}
+
+void NodeBlocks::share_blocks(const Sharing &unknowns)
+{
+  if (!unknowns.is_distributed())
+  {
+    sharing_ = Sharing(n_blocks());
+    return;
+  }
+  std::vector<GlobalIndex> ids;
+  std::vector<char> preferred;
+  for (auto row = unknown_of_row_.begin(); row != unknown_of_row_.end(); row += size_)
+  {
+    const Index first = *std::find_if(row, row + size_, [](Index unknown) { return unknown >= 0; });
+    ids.push_back(unknowns.number(first));
+    preferred.push_back(unknowns.is_own(first));
+  }
+  sharing_ = Sharing(unknowns.messages(), "linear system", ids, preferred);
 }
 } // namespace amontons

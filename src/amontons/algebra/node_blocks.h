@@ -11,14 +11,21 @@ namespace amontons
 /// The displacement unknowns numbered in whole blocks, one per node that has unknowns of its own; unknowns that move
 /// many nodes (of rigid bodies) make blocks of their own behind these. Components that are held, and what fills the
 /// last block up, are rows without an unknown.
+///
+/// Over several processes a block's copies have the same unknowns in the same order; it belongs to who owns the first
+/// of them.
 class NodeBlocks
 {
 public:
   NodeBlocks() = default;
+  /// Collective.
   NodeBlocks(const Layout &layout, std::span<const SubdomainMatrix> subdomains);
 
   [[nodiscard]] int block_size() const { return size_; }
   [[nodiscard]] Index n_blocks() const { return static_cast<Index>(unknown_of_row_.size()) / size_; }
+  /// Of the blocks.
+  [[nodiscard]] const Sharing &sharing() const { return sharing_; }
+  [[nodiscard]] bool is_own_row(Index row) const { return sharing_.is_own(row / size_); }
   [[nodiscard]] Index n_rows() const { return static_cast<Index>(unknown_of_row_.size()); }
   [[nodiscard]] Index n_nodes() const { return static_cast<Index>(blocks_of_node_.size()) - 1; }
   [[nodiscard]] Index row(Index unknown) const { return row_of_unknown_[unknown]; }
@@ -67,9 +74,11 @@ private:
   };
 
   void number_rows(const Layout &layout);
+  void share_blocks(const Sharing &unknowns);
 
   int size_ = 1;
   std::vector<Index> row_of_unknown_, unknown_of_row_;
+  Sharing sharing_;
   Lists<Index> blocks_of_node_, nodes_of_block_, nodal_of_unknown_;
   Lists<std::pair<Index, Index>> copies_;
 };
