@@ -188,6 +188,7 @@ public:
   }
 
   [[nodiscard]] const ProblemPart &part() const { return part_; }
+  [[nodiscard]] ProblemPart &part() { return part_; }
   [[nodiscard]] SystemForm &divided() { return *divided_; }
   [[nodiscard]] SystemForm &reference() { return *reference_; }
 

@@ -1,7 +1,6 @@
 // Run on three processes. Every expectation holds on each of them.
 #include "amontons/base/error.h"
 #include "amontons/parallel/agreement.h"
-#include "amontons/parallel/sharing.h"
 
 #include <gmock/gmock.h>
 
@@ -72,26 +71,6 @@ TEST_F(Agreement, AnyOtherExceptionIsInternal)
                     });
   };
   EXPECT_THAT(collective, ThrowsMessage<InternalError>(StrEq("vector")));
-}
-
-TEST_F(Agreement, AmongThoseThatShare)
-{
-  const auto messages = std::make_shared<MessageExchange>(world_);
-  const Sharing shared(messages, "test", std::vector<GlobalIndex>{7}), alone(1);
-  const auto collective = [&](const Sharing &sharing)
-  {
-    agree_on_errors(sharing,
-                    [&]
-                    {
-                      if (world_.rank() == 2)
-                        throw NumericalFailure("of one");
-                    });
-  };
-  EXPECT_THROW(collective(shared), NumericalFailure);
-  if (world_.rank() == 2)
-    EXPECT_THROW(collective(alone), NumericalFailure);
-  else
-    EXPECT_NO_THROW(collective(alone));
 }
 
 TEST_F(Agreement, BroadcastsText)

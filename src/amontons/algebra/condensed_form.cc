@@ -1,8 +1,8 @@
 #include "amontons/algebra/condensed_form.h"
 
+#include "amontons/algebra/linear_solver_failure.h"
 #include "amontons/algebra/rigid_modes.h"
 #include "amontons/base/error.h"
-#include "amontons/parallel/agreement.h"
 
 #include <Eigen/LU>
 
@@ -168,7 +168,7 @@ void CondensedForm::factorize()
   if (!subdomains_changed_ && !constraints_changed_ && !modes_changed_)
     return;
   if (subdomains_changed_ || constraints_changed_)
-    agree_on_errors(layout_.sharing(), [&] { eliminate(); });
+    agree_on_failures(layout_.sharing(), [&] { eliminate(); });
   if (modes_changed_ || !modes_.empty())
     place_pins();
   if (matrix_.update(elimination_, subdomains_changed_))

@@ -1,7 +1,7 @@
 #include "amontons/algebra/condensed_matrix.h"
 
+#include "amontons/algebra/linear_solver_failure.h"
 #include "amontons/base/error.h"
-#include "amontons/parallel/agreement.h"
 
 #include <algorithm>
 #include <array>
@@ -72,7 +72,7 @@ bool CondensedMatrix::update(const ConstraintElimination &elimination, bool ever
   if (everything)
     find_mean_diagonal();
   bool rebuilt = false;
-  agree_on_errors(layout_.sharing(), [&] { rebuilt = make_values(elimination, everything); });
+  agree_on_failures(layout_.sharing(), [&] { rebuilt = make_values(elimination, everything); });
   return rebuilt;
 }
 

@@ -1,6 +1,6 @@
 #include "amontons/algebra/coupled_form.h"
 
-#include "amontons/parallel/agreement.h"
+#include "amontons/algebra/linear_solver_failure.h"
 
 #include <algorithm>
 
@@ -144,7 +144,7 @@ bool CoupledForm::prepare()
 {
   if (pattern_built_)
     return false;
-  agree_on_errors(layout_.sharing(), [&] { build_pattern(); });
+  agree_on_failures(layout_.sharing(), [&] { build_pattern(); });
   share_rows();
   solver_->set_matrix(matrix_, rows_);
   pattern_built_ = true;

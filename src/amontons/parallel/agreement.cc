@@ -1,7 +1,6 @@
 #include "amontons/parallel/agreement.h"
 
 #include "amontons/base/error.h"
-#include "amontons/parallel/sharing.h"
 
 #include <exception>
 
@@ -69,13 +68,5 @@ void agree_on_errors(const Communicator &communicator, const std::function<void(
   default:
     throw InternalError(message);
   }
-}
-
-void agree_on_errors(const Sharing &sharing, const std::function<void()> &work)
-{
-  if (sharing.is_distributed())
-    agree_on_errors(sharing.messages()->communicator(), work);
-  else
-    work();
 }
 } // namespace amontons

@@ -5,8 +5,6 @@
 
 namespace amontons
 {
-class Sharing;
-
 /// Does `work` on every process; an error on one becomes the same error on all, so that none goes on alone to wait in a
 /// collective that the others never reach. Collective, but `work` itself must be local.
 ///
@@ -15,8 +13,4 @@ class Sharing;
 /// @throws UserError, NumericalFailure or InternalError (which stands for any other), with one message on all
 /// processes.
 void agree_on_errors(const Communicator &communicator, const std::function<void()> &work);
-
-/// Among the processes that share; where nothing is distributed it is `work` alone, and its errors are left as they
-/// are.
-void agree_on_errors(const Sharing &sharing, const std::function<void()> &work);
 } // namespace amontons
