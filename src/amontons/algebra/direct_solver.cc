@@ -94,6 +94,9 @@ private:
     check_petsc(MatMumpsSetIcntl(factor, 14, workspace_), "MUMPS workspace");
     check_petsc(MatMumpsSetIcntl(factor, 10, refinements), "MUMPS refinement");
     check_petsc(MatMumpsSetIcntl(factor, 24, 1), "MUMPS null pivots");
+    // A last front that processes factorise together (by ScaLAPACK) would hide its null pivots.
+    if (matrix_.is_distributed())
+      check_petsc(MatMumpsSetIcntl(factor, 13, 1), "MUMPS root");
   }
 
   /// MUMPS itself refines a solution on one process only.
