@@ -2,6 +2,7 @@
 
 #include <cblas.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace amontons
@@ -44,21 +45,28 @@ double FetiDirections::dot(std::span<const double> a, std::span<const double> b)
 }
 
 /// take(k, q_k . v) for all k. Where `take` changes v, one process has the products with what is left of v (modified
-/// Gram-Schmidt); several have them with v as it was, since they are summed together (classical).
+/// Gram-Schmidt); several have them with v as it was, since they are summed together (classical). @return |v| as it was
 template<class Take>
-void FetiDirections::for_each_product(std::span<const double> v, Take &&take) const
+double FetiDirections::for_each_product(std::span<const double> v, Take &&take) const
 {
-  const std::size_t n = q_.size(), n_together = processes_->is_distributed() ? n : 1;
+  const std::size_t n = q_.size(), n_together = processes_->is_distributed() ? std::max<std::size_t>(n, 1) : 1;
+  double length2 = 0;
   std::vector<double> products;
-  for (std::size_t first = 0; first < n; first += n_together)
+  for (std::size_t first = 0; first == 0 || first < n; first += n_together)
   {
+    const std::size_t end = std::min(n, first + n_together);
     products.clear();
-    for (std::size_t k = first; k < first + n_together; ++k)
+    for (std::size_t k = first; k < end; ++k)
       products.push_back(own_dot(q_[k], v));
+    if (first == 0)
+      products.push_back(own_dot(v, v));
     processes_->sum_over_processes(products);
-    for (std::size_t k = first; k < first + n_together; ++k)
+    if (first == 0)
+      length2 = products.back();
+    for (std::size_t k = first; k < end; ++k)
       take(k, products[k - first]);
   }
+  return std::sqrt(length2);
 }
 
 void FetiDirections::project(std::span<double> x, std::span<double> r) const
@@ -73,16 +81,16 @@ void FetiDirections::project(std::span<double> x, std::span<double> r) const
 
 bool FetiDirections::add(std::vector<double> p, std::vector<double> q, std::span<double> x, std::span<double> r)
 {
-  const double length = std::sqrt(dot(q, q));
-  double left = length;
-  for (int round = 0; round == 0 || (round == 1 && left < lossless_share * length); ++round)
+  const auto take_out = [&](std::size_t k, double factor)
   {
-    for_each_product(q,
-                     [&](std::size_t k, double factor)
-                     {
-                       add_multiple(-factor, p_[k], p);
-                       add_multiple(-factor, q_[k], q);
-                     });
+    add_multiple(-factor, p_[k], p);
+    add_multiple(-factor, q_[k], q);
+  };
+  const double length = for_each_product(q, take_out);
+  double left = std::sqrt(dot(q, q));
+  if (left < lossless_share * length)
+  {
+    for_each_product(q, take_out);
     left = std::sqrt(dot(q, q));
   }
   if (!(left > least_share * length))

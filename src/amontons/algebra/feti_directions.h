@@ -27,7 +27,7 @@ private:
   [[nodiscard]] double own_dot(std::span<const double> a, std::span<const double> b) const;
   [[nodiscard]] double dot(std::span<const double> a, std::span<const double> b) const;
   template<class Take>
-  void for_each_product(std::span<const double> v, Take &&take) const;
+  double for_each_product(std::span<const double> v, Take &&take) const;
 
   std::vector<std::vector<double>> p_, q_;
   std::size_t first_own_ = 0, n_own_ = 0;
