@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <iostream>
 
 namespace amontons
@@ -36,6 +35,15 @@ ProblemCheck check(const Deck &deck, spdlog::logger &log)
     log.warn("{}", warning);
   return check;
 }
+/// Collective.
+ResultFolder result_folder(const DeckArguments &arguments, const Communicator &world)
+{
+  namespace fs = std::filesystem;
+  const fs::path path = arguments.output.value_or(default_folder(arguments.deck));
+  const bool goes_on_there = arguments.restart && world.is_root() && fs::exists(path) &&
+                             fs::equivalent(path, fs::absolute(*arguments.restart).parent_path());
+  return ResultFolder(path, world, goes_on_there);
+}
 } // namespace
 
 std::filesystem::path default_folder(const std::filesystem::path &deck)
@@ -46,46 +54,48 @@ std::filesystem::path default_folder(const std::filesystem::path &deck)
 ExitCode run_deck(const DeckArguments &arguments, const Communicator &world)
 {
   Deck deck;
-  std::optional<SavedRun> saved;
+  std::optional<SavedRun> saved; // its content on process 0 only
   agree_on_errors(world,
                   [&]
                   {
                     deck = read(arguments);
                     if (arguments.restart)
-                      saved = read_checkpoint(*arguments.restart);
+                      saved = world.is_root() ? read_checkpoint(*arguments.restart) : SavedRun();
                   });
 
-  const std::filesystem::path path = arguments.output.value_or(default_folder(arguments.deck));
-  const bool same_folder =
-      saved && std::filesystem::exists(path) &&
-      std::filesystem::equivalent(path, std::filesystem::absolute(*arguments.restart).parent_path());
-  const ResultFolder folder(path, same_folder);
-  Screen screen(std::cout, deck.loading.end, isatty(STDOUT_FILENO) != 0);
-  RunRecord record(folder, deck.title, deck.file.string(), world.size());
+  const ResultFolder folder = result_folder(arguments, world);
+  // mpirun gives its processes a terminal even where its own output goes to a file.
+  const bool terminal = world.size() == 1 && isatty(STDOUT_FILENO) != 0;
+  Screen screen(std::cout, deck.loading.end, terminal);
+  RunRecord record(folder, deck.title, deck.file.string());
   ContactTables tables(folder);
   Pictures pictures(folder, deck.output, deck.bodies);
   CheckpointWriter checkpoints(folder, deck.output.checkpoint, record, pictures);
-  if (saved)
-  {
-    record.resume(std::move(saved->record), saved->checkpoint.increment);
-    pictures.resume(std::move(saved->series));
-  }
   // The record after the files that it tells of.
-  const std::array<Observer *, 5> observers{&screen, &tables, &pictures, &record, &checkpoints};
-
-  if (!deck.title.empty())
-    std::cout << deck.title << '\n';
+  std::vector<Observer *> observers{&pictures, &record, &checkpoints};
+  if (world.is_root())
+  {
+    observers.insert(observers.begin(), {&screen, &tables});
+    if (saved)
+    {
+      record.resume(std::move(saved->record), saved->checkpoint.increment);
+      pictures.resume(std::move(saved->series));
+    }
+    if (!deck.title.empty())
+      std::cout << deck.title << '\n';
+  }
   RunResult result;
   try
   {
-    result = run(deck, observers, saved ? &saved->checkpoint : nullptr);
+    result = run(deck, observers, saved ? &saved->checkpoint : nullptr, world);
   }
   catch (const std::exception &error)
   {
     record.fail(error.what());
     throw;
   }
-  std::cout << "results in " << folder.path().string() << std::endl;
+  if (world.is_root())
+    std::cout << "results in " << folder.path().string() << std::endl;
   return result.converged ? ExitCode::solved : ExitCode::not_converged;
 }
 

@@ -34,10 +34,10 @@ struct DeckArguments
 /// "<deck's name>-results" in the current directory.
 std::filesystem::path default_folder(const std::filesystem::path &deck);
 
-/// Solves and writes. @return solved or not_converged
+/// Solves and writes. Collective. @return solved or not_converged
 ExitCode run_deck(const DeckArguments &arguments, const Communicator &world);
 
-/// Prints what can be known before solving.
+/// Prints what can be known before solving. Local, as is detect_deck().
 ExitCode check_deck(const DeckArguments &arguments, spdlog::logger &log);
 
 /// Prints statistics of one detection.

@@ -7,6 +7,7 @@
 #include "amontons/base/suggestion.h"
 #include "amontons/input/deck.h"
 #include "amontons/output/version.h"
+#include "amontons/parallel/agreement.h"
 
 #include <CLI/CLI.hpp>
 
@@ -23,6 +24,7 @@ struct CommandLine
 {
   DeckArguments arguments;
   std::function<ExitCode(const Communicator &, spdlog::logger &)> command;
+  bool is_collective = false; ///< else process 0 does it while the others wait
 };
 
 const std::map<std::string, DetectionMethod> detection_methods{{"exact", DetectionMethod::exact},
@@ -49,7 +51,12 @@ void add_commands(CLI::App &app, CommandLine &line)
   run->add_option("--output", arguments.output, "folder of the results [<deck>-results]")->type_name("DIR");
   run->add_option("--restart", arguments.restart, "go on from this checkpoint (output: {checkpoint: n} in the deck)")
       ->type_name("FILE");
-  run->callback([&] { line.command = [&](const Communicator &world, auto &) { return run_deck(arguments, world); }; });
+  run->callback(
+      [&]
+      {
+        line.command = [&](const Communicator &world, auto &) { return run_deck(arguments, world); };
+        line.is_collective = true;
+      });
 
   add_deck_command(app, "check", "tell what can be known before solving", arguments)
       ->callback([&] { line.command = [&](const auto &, auto &log) { return check_deck(arguments, log); }; });
@@ -123,10 +130,7 @@ ExitCode execute(int argc, char **argv, const Communicator &world, spdlog::logge
       return world.is_root() ? static_cast<ExitCode>(app.exit(error)) : ExitCode::solved;
     throw UserError(std::string(error.what()) + " (see amontons --help)");
   }
-  if (world.size() > 1)
-    throw UserError("one process for now: run without mpirun, or with -n 1 (this run has " +
-                    std::to_string(world.size()) + ")");
-  return line.command(world, log);
+  return line.is_collective || world.is_root() ? line.command(world, log) : ExitCode::solved;
 }
 } // namespace
 
@@ -138,7 +142,7 @@ int main(int argc, char **argv)
   ExitCode code = ExitCode::internal_error;
   try
   {
-    code = execute(argc, argv, world, *log);
+    end_together(world, [&] { code = execute(argc, argv, world, *log); });
   }
   catch (const UserError &error)
   {

@@ -39,13 +39,18 @@ class Run:
         return sum(increment["cutbacks"] for increment in self.increments)
 
 
-def run(program, deck, overrides=(), directory=None):
+def launcher(processes):
+    """What comes before the program on a command line, for so many processes, as many as there may be cores or more."""
+    return ["mpirun", "--oversubscribe", "--bind-to", "none", "-n", str(processes)] if processes > 1 else []
+
+
+def run(program, deck, overrides=(), directory=None, processes=1):
     """Runs a deck; its output goes to `directory` or to a new temporary one.
 
     Raises RuntimeError with the program's last lines where it leaves no record.
     """
     directory = directory or tempfile.mkdtemp(prefix="amontons-")
-    command = [program, "run", deck, "--output", directory]
+    command = [*launcher(processes), program, "run", deck, "--output", directory]
     for override in overrides:
         command += ["--set", override]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)

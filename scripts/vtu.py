@@ -1,6 +1,7 @@
 """Reads the .vtu files that a run writes, with the standard library alone."""
 import base64
 import math
+import pathlib
 import struct
 import xml.etree.ElementTree
 import zlib
@@ -23,3 +24,12 @@ def vtu_arrays(path):
         kind = formats[element.get("type")]
         arrays[element.get("Name")] = struct.unpack(f"<{len(data) // struct.calcsize(kind)}{kind}", data)
     return arrays
+
+
+def grid_arrays(path):
+    """The same for each piece of a .pvtu, in a list; a .vtu is its own piece."""
+    path = pathlib.Path(path)
+    if path.suffix == ".vtu":
+        return [vtu_arrays(path)]
+    pieces = xml.etree.ElementTree.parse(path).iter("Piece")
+    return [vtu_arrays(path.parent / piece.get("Source")) for piece in pieces]

@@ -3,8 +3,12 @@ import json
 import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 import unittest
+
+sys.path.append(str(pathlib.Path(__file__).parents[2] / "scripts"))
+from results import launcher  # noqa: E402
 
 PROGRAM = os.environ["AMONTONS"]
 
@@ -40,6 +44,12 @@ loading: {increments: 2}
 """
 
 
+def children(process):
+    """Ids of the processes that another has started, as mpirun does."""
+    return [int(child) for task in pathlib.Path(f"/proc/{process}/task").iterdir()
+            for child in (task / "children").read_text(encoding="ascii").split()]
+
+
 class CommandTest(unittest.TestCase):
     """Each test has a folder of its own with deck.yaml and blocks.geo, and works in it."""
 
@@ -58,16 +68,14 @@ class CommandTest(unittest.TestCase):
             text = text.replace(part, by)
         (self.folder / "deck.yaml").write_text(text, encoding="utf-8")
 
-    def call(self, *arguments, processes=None):
+    def call(self, *arguments, processes=1):
         """The finished process, with stdout and stderr as text."""
-        command = [PROGRAM, *arguments]
-        if processes:
-            command = ["mpirun", "--oversubscribe", "-n", str(processes), *command]
-        return subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False, timeout=300)
+        return subprocess.run([*launcher(processes), PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True,
+                              check=False, timeout=300)
 
-    def succeed(self, *arguments):
+    def succeed(self, *arguments, **how):
         """Standard output of a call that must succeed without a word on standard error."""
-        done = self.call(*arguments)
+        done = self.call(*arguments, **how)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout
 

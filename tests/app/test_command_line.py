@@ -31,10 +31,6 @@ class CommandLine(CommandTest):
                 self.assertRegex(self.expect_error(2, *arguments), message)
         self.assertFalse((self.folder / "deck-results").exists(), "results of a run that could not begin")
 
-    def test_several_processes_are_refused_by_all(self):
-        message = self.expect_error(2, "run", "deck.yaml", processes=2)
-        self.assertEqual(message.count("error: one process for now"), 1, message)
-
     def test_check_tells_what_is_there_and_solves_nothing(self):
         text = self.succeed("check", "deck.yaml")
         self.assertIn("117 nodes, 89 cells", text)

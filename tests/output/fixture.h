@@ -16,6 +16,7 @@ struct Example
 {
   Mesh mesh;
   Surface surface;
+  Sharing nodes{8};
   SolutionState state;
 
   Example();
@@ -33,6 +34,7 @@ inline Example::Example()
   add(mesh.cells, {1, 2, 5});
   add(mesh.cells, {1, 5, 4});
   mesh.cell_tags = {1, 2, 3};
+  number_whole(mesh);
   Group block{2, {}, {1, 2}};
   add(block.entities, {1, 2, 5});
   add(block.entities, {1, 5, 4});
@@ -67,6 +69,7 @@ inline Example::Example()
   contact.contact_area = 1.5;
 
   state.mesh = &mesh;
+  state.nodes = &nodes;
   state.displacement = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 0, 0, 0, 0};
   state.stress = {1, 2, 3, 4, 5, 6, 10, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0};
   state.contacts = {contact};

@@ -96,7 +96,7 @@ TEST(ContactTable, HasTheColumnsOfSpace)
 TEST(ContactTables, KeepTheLastConvergedIncrement)
 {
   const TemporaryFolder temporary;
-  const ResultFolder folder(temporary.path());
+  const ResultFolder folder(temporary.path(), Communicator::alone());
   Example example;
   ContactTables tables(folder);
   tables.accepted({}, example.state);

@@ -65,13 +65,18 @@ TEST(BodyGrid, GivesStressWithItsComponentsAndVonMises)
   EXPECT_EQ(equivalent[3], 0);
 }
 
-TEST(BodyGrid, GivesPlasticStrainWhereThereIsAny)
+TEST(BodyGrid, GivesPlasticStrainWhereABodyIsPlastic)
 {
   Example example;
   EXPECT_EQ(body_grid(example.state, bodies, all_fields).text().find("plastic_strain"), std::string::npos);
+  std::vector<BodyOptions> plastic = bodies;
+  plastic[2].material.law = MaterialLaw::von_mises;
   example.state.plastic_strain = {0.25, 0, 0.5};
-  const VtuReader vtu(body_grid(example.state, bodies, all_fields).text());
+  const VtuReader vtu(body_grid(example.state, plastic, all_fields).text());
   EXPECT_EQ(vtu.numbers("plastic_strain"), (std::vector<double>{0.25, 0, 0.5, 0}));
+  example.state.plastic_strain = {}; // all plastic cells are on another process
+  EXPECT_EQ(VtuReader(body_grid(example.state, plastic, all_fields).text()).numbers("plastic_strain"),
+            (std::vector<double>{0, 0, 0, 0}));
 }
 
 TEST(BodyGrid, WritesOnlyTheFieldsAskedFor)
@@ -118,7 +123,7 @@ TEST(Vtu, SurvivesArraysOfSeveralBlocks)
 TEST(Pictures, AreWrittenEveryNthTimeAndAtTheEnd)
 {
   const TemporaryFolder temporary;
-  const ResultFolder folder(temporary.path());
+  const ResultFolder folder(temporary.path(), Communicator::alone());
   Example example;
   Pictures pictures(folder, {all_fields, 2}, bodies);
   pictures.start(example.state, 0);
@@ -141,7 +146,7 @@ TEST(Pictures, AreWrittenEveryNthTimeAndAtTheEnd)
 TEST(Pictures, OfTheLastIncrementAreWrittenOnce)
 {
   const TemporaryFolder temporary;
-  const ResultFolder folder(temporary.path());
+  const ResultFolder folder(temporary.path(), Communicator::alone());
   Example example;
   Pictures pictures(folder, {all_fields, 1}, bodies);
   example.state.increment = 1;
@@ -154,7 +159,7 @@ TEST(Pictures, OfTheLastIncrementAreWrittenOnce)
 TEST(Pictures, CanBeLeftOut)
 {
   const TemporaryFolder temporary;
-  const ResultFolder folder(temporary.path());
+  const ResultFolder folder(temporary.path(), Communicator::alone());
   const Example example;
   Pictures pictures(folder, {all_fields, 0}, bodies);
   pictures.start(example.state, 0);

@@ -26,9 +26,9 @@ protected:
   }
 
   TemporaryFolder temporary_;
-  ResultFolder folder_{temporary_.path()};
+  ResultFolder folder_{temporary_.path(), Communicator::alone()};
   Example example_;
-  RunRecord record_{folder_, "A title", "/decks/a.yml", 1};
+  RunRecord record_{folder_, "A title", "/decks/a.yml"};
 };
 
 TEST_F(Record, IsThereFromTheStart)

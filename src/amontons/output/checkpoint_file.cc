@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 namespace
 {
 /// To be counted up when the content changes.
-constexpr int format = 1;
+constexpr int format = 2;
 
 template<class T>
 Json bytes(const std::vector<T> &values)
@@ -35,20 +35,11 @@ void read(const Json &from, std::vector<T> &values)
     std::memcpy(values.data(), in.data(), values.size() * sizeof(T));
 }
 
-/// Translation, rotation vector and rotation matrix of each body, column by column.
-constexpr int rigid_numbers = 15;
-
 Json to_json(const State &state)
 {
-  std::vector<double> rigid;
-  for (const RigidState &body : state.rigid)
-  {
-    rigid.insert(rigid.end(), body.translation.data(), body.translation.data() + 3);
-    rigid.insert(rigid.end(), body.rotation_vector.data(), body.rotation_vector.data() + 3);
-    rigid.insert(rigid.end(), body.rotation.data(), body.rotation.data() + 9);
-  }
-  return {
-      {"displacement", bytes(state.displacement)}, {"rigid", bytes(rigid)}, {"multipliers", bytes(state.multipliers)}};
+  return {{"displacement", bytes(state.displacement)},
+          {"rigid", bytes(to_numbers(state.rigid))},
+          {"multipliers", bytes(state.multipliers)}};
 }
 
 State to_state(const Json &from)
@@ -58,11 +49,7 @@ State to_state(const Json &from)
   read(from.at("displacement"), out.displacement);
   read(from.at("rigid"), rigid);
   read(from.at("multipliers"), out.multipliers);
-  for (std::size_t i = 0; i + rigid_numbers <= rigid.size(); i += rigid_numbers)
-  {
-    const double *number = rigid.data() + i;
-    out.rigid.push_back({Eigen::Vector3d(number), Eigen::Vector3d(number + 3), Eigen::Matrix3d(number + 6)});
-  }
+  out.rigid = to_rigid_states(rigid);
   return out;
 }
 
@@ -91,6 +78,7 @@ Json to_json(const Checkpoint &checkpoint)
               {"time", checkpoint.time},
               {"next_step", checkpoint.next_step},
               {"last_motion", checkpoint.last_motion},
+              {"linear_solver", checkpoint.linear_solver},
               {"state", to_json(checkpoint.state)},
               {"contacts", Json::array()},
               {"cells", bytes(checkpoint.cells.cells)},
@@ -112,6 +100,7 @@ Checkpoint to_checkpoint(const Json &from)
   from.at("time").get_to(out.time);
   from.at("next_step").get_to(out.next_step);
   from.at("last_motion").get_to(out.last_motion);
+  from.at("linear_solver").get_to(out.linear_solver);
   out.state = to_state(from.at("state"));
   if (from.contains("last"))
   {
@@ -132,6 +121,8 @@ Checkpoint to_checkpoint(const Json &from)
 
 void CheckpointWriter::checkpoint(const Checkpoint &checkpoint)
 {
+  if (!folder_.communicator().is_root())
+    return;
   const Json content = {{"format", format},
                         {"checkpoint", to_json(checkpoint)},
                         {"record", record_.written()},

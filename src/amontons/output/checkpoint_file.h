@@ -18,8 +18,8 @@ struct SavedRun
   Pictures::Series series;
 };
 
-/// Writes checkpoint.cbor: CBOR (RFC 8949), numbers as they are in memory. The file is replaced in one go: a run that
-/// is killed at any moment leaves the last complete one.
+/// Writes checkpoint.cbor on process 0: CBOR (RFC 8949), numbers as they are in memory. The file is replaced in one go:
+/// a run that is killed at any moment leaves the last complete one.
 class CheckpointWriter : public Observer
 {
 public:

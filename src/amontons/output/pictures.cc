@@ -1,5 +1,7 @@
 #include "amontons/output/pictures.h"
 
+#include "amontons/parallel/agreement.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,12 +20,29 @@ double von_mises(std::span<const double, 6> s)
   return std::sqrt(normal / 2 + 3 * shear);
 }
 
-/// Adds the mesh's cells, then the facets of bodies that have no cells. @return the body of each
-std::vector<std::int64_t> add_cells(VtuGrid &grid, const Mesh &mesh, const std::vector<BodyOptions> &bodies)
+/// What a grid of bodies shows of the mesh.
+struct Shown
 {
-  std::vector<std::int64_t> body_of_cell(static_cast<std::size_t>(mesh.cells.size()), -1);
-  for (Index cell = 0; cell < mesh.cells.size(); ++cell)
-    grid.add_cell(cell_shape(mesh.dim, mesh.cells[cell].size()), mesh.cells[cell]);
+  std::vector<CellShape> shapes;
+  Connectivity cells;                     ///< the mesh's, then the facets of bodies that have no cells
+  std::vector<std::int64_t> body_of_cell; ///< position in the deck, -1 for none
+  std::vector<Index> nodes;               ///< of these cells, or owned by this process
+};
+
+void add_cells(Shown &shown, int dim, const Connectivity &cells)
+{
+  for (Index cell = 0; cell < cells.size(); ++cell)
+  {
+    shown.shapes.push_back(cell_shape(dim, cells[cell].size()));
+    shown.cells.push_back(cells[cell]);
+  }
+}
+
+Shown shown(const Mesh &mesh, const Sharing &nodes, const std::vector<BodyOptions> &bodies)
+{
+  Shown out;
+  add_cells(out, mesh.dim, mesh.cells);
+  out.body_of_cell.assign(out.shapes.size(), -1);
   for (std::size_t body = 0; body < bodies.size(); ++body)
   {
     const auto found = mesh.groups.find(bodies[body].region);
@@ -31,16 +50,54 @@ std::vector<std::int64_t> add_cells(VtuGrid &grid, const Mesh &mesh, const std::
       continue;
     const Group &group = found->second;
     for (const Index cell : group.cells)
-      body_of_cell[cell] = static_cast<std::int64_t>(body);
-    if (group.dim == mesh.dim)
-      continue;
-    for (Index facet = 0; facet < group.entities.size(); ++facet)
-    {
-      grid.add_cell(cell_shape(group.dim, group.entities[facet].size()), group.entities[facet]);
-      body_of_cell.push_back(static_cast<std::int64_t>(body));
-    }
+      out.body_of_cell[cell] = static_cast<std::int64_t>(body);
+    if (group.dim < mesh.dim)
+      add_cells(out, group.dim, group.entities);
+    out.body_of_cell.resize(out.shapes.size(), static_cast<std::int64_t>(body));
   }
-  return body_of_cell;
+  std::vector<char> wanted(static_cast<std::size_t>(mesh.n_nodes()), 0);
+  for (const Index node : out.cells.nodes)
+    wanted[node] = 1;
+  for (Index node = 0; node < mesh.n_nodes(); ++node)
+    if (wanted[node] != 0 || nodes.is_own(node))
+      out.nodes.push_back(node);
+  return out;
+}
+
+/// Entries of an array over the mesh's nodes, n_components to a node.
+template<class T>
+std::vector<T> of_nodes(const std::vector<T> &values, std::span<const Index> nodes, int n_components)
+{
+  std::vector<T> out;
+  out.reserve(nodes.size() * n_components);
+  for (const Index node : nodes)
+  {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(node) * n_components;
+    out.insert(out.end(), first, first + n_components);
+  }
+  return out;
+}
+
+VtuGrid grid_of(const Mesh &mesh, const Shown &shown)
+{
+  VtuGrid grid(mesh.dim, of_nodes(mesh.points, shown.nodes, mesh.dim));
+  std::vector<Index> position(static_cast<std::size_t>(mesh.n_nodes()), -1);
+  for (std::size_t i = 0; i < shown.nodes.size(); ++i)
+    position[shown.nodes[i]] = static_cast<Index>(i);
+  std::vector<Index> nodes;
+  for (Index cell = 0; cell < shown.cells.size(); ++cell)
+  {
+    nodes.clear();
+    for (const Index node : shown.cells[cell])
+      nodes.push_back(position[node]);
+    grid.add_cell(shown.shapes[cell], nodes);
+  }
+  return grid;
+}
+
+bool is_plastic(const BodyOptions &body)
+{
+  return body.material.law == MaterialLaw::von_mises;
 }
 
 /// A gap that is not known has no number: NaN, as infinity would spoil the range of colours.
@@ -59,12 +116,12 @@ VtuGrid body_grid(const SolutionState &state, const std::vector<BodyOptions> &bo
   const Mesh &mesh = *state.mesh;
   const auto wanted = [&](OutputField field) { return std::find(fields.begin(), fields.end(), field) != fields.end(); };
 
-  VtuGrid grid(mesh.dim, mesh.points);
-  const std::vector<std::int64_t> body_of_cell = add_cells(grid, mesh, bodies);
-  grid.add_point_data("node", mesh.node_tags);
+  const Shown what = shown(mesh, *state.nodes, bodies);
+  VtuGrid grid = grid_of(mesh, what);
+  grid.add_point_data("node", of_nodes(mesh.node_tags, what.nodes, 1));
   if (wanted(OutputField::displacement))
-    grid.add_point_data("displacement", 3, in_space(mesh.dim, state.displacement));
-  grid.add_cell_data("body", body_of_cell);
+    grid.add_point_data("displacement", 3, in_space(mesh.dim, of_nodes(state.displacement, what.nodes, mesh.dim)));
+  grid.add_cell_data("body", what.body_of_cell);
   if (wanted(OutputField::stress))
   {
     std::vector<double> stress = state.stress;
@@ -75,7 +132,8 @@ VtuGrid body_grid(const SolutionState &state, const std::vector<BodyOptions> &bo
     grid.add_cell_data("stress", 6, stress, "xx,yy,zz,xy,yz,xz");
     grid.add_cell_data("von_mises", 1, equivalent);
   }
-  if (wanted(OutputField::plastic_strain) && !state.plastic_strain.empty())
+  // Asked of the deck, as the pieces of all processes are to hold the same fields.
+  if (wanted(OutputField::plastic_strain) && std::any_of(bodies.begin(), bodies.end(), is_plastic))
   {
     std::vector<double> strain = state.plastic_strain;
     strain.resize(grid.n_cells(), 0.0);
@@ -131,7 +189,11 @@ void Pictures::resume(Series earlier)
 void Pictures::start(const SolutionState &initial, std::int64_t /*n_dofs*/)
 {
   if (initial.increment > 0) // a run that goes on
+  {
     last_written_ = initial.increment;
+    if (folder_.communicator().is_root())
+      folder_.remove_pictures_after(initial.increment);
+  }
   else if (options_.every > 0)
     write(initial);
 }
@@ -151,16 +213,41 @@ void Pictures::finish(const SolutionState &last, const Counters & /*counters*/, 
 
 void Pictures::write(const SolutionState &state)
 {
-  add("solution", state, body_grid(state, bodies_, options_.fields));
-  for (const ContactResult &contact : state.contacts)
-    add(contact_file_stem(contact.name), state, contact_grid(contact, state));
   last_written_ = state.increment;
+  const std::string bodies = write_bodies(state);
+  if (!folder_.communicator().is_root())
+    return;
+  add("solution", state, bodies);
+  for (const ContactResult &contact : state.contacts)
+  {
+    const std::string stem = contact_file_stem(contact.name);
+    const std::string file = picture_name(stem, state.increment) + ".vtu";
+    folder_.write(file, contact_grid(contact, state).text());
+    add(stem, state, file);
+  }
 }
 
-void Pictures::add(const std::string &stem, const SolutionState &state, const VtuGrid &grid)
+std::string Pictures::write_bodies(const SolutionState &state)
 {
-  const std::string file = fmt::format("{}_{:05d}.vtu", stem, state.increment);
-  folder_.write(file, grid.text());
+  const Communicator &all = folder_.communicator();
+  const VtuGrid grid = body_grid(state, bodies_, options_.fields);
+  const std::string name = picture_name("solution", state.increment);
+  if (all.size() == 1)
+  {
+    folder_.write(name + ".vtu", grid.text());
+    return name + ".vtu";
+  }
+  std::vector<std::string> pieces;
+  for (Rank rank = 0; rank < all.size(); ++rank)
+    pieces.push_back(fmt::format("{}_{}.vtu", name, rank));
+  agree_on_errors(all, [&] { folder_.write(pieces[all.rank()], grid.text()); });
+  if (all.is_root())
+    folder_.write(name + ".pvtu", grid.text_of_pieces(pieces));
+  return name + ".pvtu";
+}
+
+void Pictures::add(const std::string &stem, const SolutionState &state, const std::string &file)
+{
   series_[stem].emplace_back(state.time, file);
   folder_.write(stem + ".pvd", pvd_text(series_[stem]));
 }

@@ -12,7 +12,8 @@
 namespace amontons
 {
 /// The bodies of a state as a grid in reference coordinates: the fields asked for, body of each cell.
-/// Facets of a rigid body meshed by its surface alone are cells too.
+/// Facets of a rigid body meshed by its surface alone are cells too. Over several processes a process's cells with the
+/// nodes that are theirs or its own.
 VtuGrid body_grid(const SolutionState &state, const std::vector<BodyOptions> &bodies,
                   const std::vector<OutputField> &fields);
 
@@ -20,6 +21,7 @@ VtuGrid body_grid(const SolutionState &state, const std::vector<BodyOptions> &bo
 VtuGrid contact_grid(const ContactResult &contact, const SolutionState &state);
 
 /// Writes solution.pvd, contact_<name>.pvd and their .vtu files: the initial state, every n-th increment, the last.
+/// Over several processes each writes the .vtu of its own cells, process 0 the .pvtu that holds them together.
 class Pictures : public Observer
 {
 public:
@@ -28,8 +30,9 @@ public:
 
   /// By stem: time and file.
   using Series = std::map<std::string, std::vector<std::pair<double, std::string>>>;
-  /// Goes on with the series of an earlier run, as far as its files are in the folder.
+  /// Goes on with the series of an earlier run, as far as its files are in the folder. For process 0.
   void resume(Series earlier);
+  /// As process 0 has it; empty elsewhere.
   [[nodiscard]] const Series &series() const { return series_; }
 
   void start(const SolutionState &initial, std::int64_t n_dofs) override;
@@ -39,7 +42,9 @@ public:
 
 private:
   void write(const SolutionState &state);
-  void add(const std::string &stem, const SolutionState &state, const VtuGrid &grid);
+  /// @return the name of the file
+  std::string write_bodies(const SolutionState &state);
+  void add(const std::string &stem, const SolutionState &state, const std::string &file);
 
   const ResultFolder &folder_;
   OutputOptions options_;

@@ -5,7 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace amontons
 {
@@ -52,22 +55,77 @@ Json increment_entry(const IncrementReport &report, const SolutionState &state)
 constexpr std::array phases{"mesh",         "setup",        "detection", "bulk_assembly", "contact_assembly",
                             "linear_setup", "linear_solve", "output"};
 
-/// Largest resident memory of this process so far, 10^6 bytes.
-double peak_rss_mb()
+rusage usage_so_far()
 {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) * 1024 * 1e-6;
+  return usage;
+}
+
+/// Largest resident memory of this process so far, 10^6 bytes.
+double peak_rss_mb()
+{
+  return static_cast<double>(usage_so_far().ru_maxrss) * 1024 * 1e-6;
+}
+
+/// Processor time of this process so far, s.
+double cpu_s()
+{
+  const auto seconds = [](const timeval &time)
+  { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+  const rusage usage = usage_so_far();
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// Numbers of one process, each with its place as a JSON pointer (RFC 6901).
+using Numbers = std::vector<std::pair<std::string, double>>;
+
+Numbers numbers_of_process(const SolutionState &state, const Timers &timers)
+{
+  Numbers out{{"/n_cells", state.mesh->cells.size()},
+              {"/n_nodes", state.mesh->n_nodes()},
+              {"/peak_rss_mb", peak_rss_mb()},
+              {"/cpu_s", cpu_s()}};
+  for (const char *phase : phases)
+  {
+    const auto found = timers.seconds().find(phase);
+    out.emplace_back(std::string("/timings/") + phase, found == timers.seconds().end() ? 0.0 : found->second);
+  }
+  for (const auto &[phase, traffic] : state.nodes->messages()->traffic())
+    for (const auto &[name, number] :
+         {std::pair("messages", traffic.messages), std::pair("bytes", traffic.bytes),
+          std::pair("reductions", traffic.reductions), std::pair("reduced_bytes", traffic.reduced_bytes)})
+      out.emplace_back("/traffic/" + phase + '/' + name, static_cast<double>(number));
+  return out;
+}
+
+/// Each number's least and greatest over the processes, and its sum. Collective.
+Json compared(const Numbers &numbers, const Sharing &nodes)
+{
+  std::vector<double> least, greatest, sum;
+  for (const auto &[place, number] : numbers)
+  {
+    least.push_back(-number);
+    greatest.push_back(number);
+    sum.push_back(number);
+  }
+  nodes.maximum_over_processes(least);
+  nodes.maximum_over_processes(greatest);
+  nodes.sum_over_processes(sum);
+  Json out;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    out[Json::json_pointer(numbers[i].first)] = {{"min", -least[i]}, {"max", greatest[i]}, {"sum", sum[i]}};
+  return out;
 }
 } // namespace
 
-RunRecord::RunRecord(const ResultFolder &folder, const std::string &title, const std::string &deck, int n_processes)
+RunRecord::RunRecord(const ResultFolder &folder, const std::string &title, const std::string &deck)
   : folder_(folder)
   , record_(std::make_unique<Json>(Json{{"version", version()},
                                         {"title", title},
                                         {"deck", deck},
                                         {"status", "running"},
-                                        {"processes", n_processes},
+                                        {"processes", folder.communicator().size()},
                                         {"n_dofs", nullptr},
                                         {"increments", Json::array()},
                                         {"rejected", Json::array()},
@@ -113,8 +171,19 @@ void RunRecord::warning(const std::string &message)
   (*record_)["warnings"].push_back(message);
 }
 
-void RunRecord::finish(const SolutionState & /*last*/, const Counters &counters, const Timers &timers,
+void RunRecord::finish(const SolutionState &last, const Counters &counters, const Timers &timers,
                        const std::string &failure)
+{
+  add_totals(counters, timers);
+  if (last.nodes->is_distributed())
+    compare_processes(last, timers);
+  if (!failure.empty())
+    return fail(failure);
+  (*record_)["status"] = "converged";
+  write();
+}
+
+void RunRecord::add_totals(const Counters &counters, const Timers &timers)
 {
   Json &totals = (*record_)["totals"];
   for (const char *phase : phases) // a phase that was never entered took no time
@@ -128,10 +197,12 @@ void RunRecord::finish(const SolutionState & /*last*/, const Counters &counters,
   totals["n_detections"] = counters.n_detections;
   totals["n_newton_iterations"] = counters.n_newton_iterations;
   totals["n_linear_iterations"] = counters.n_linear_iterations;
-  if (!failure.empty())
-    return fail(failure);
-  (*record_)["status"] = "converged";
-  write();
+}
+
+void RunRecord::compare_processes(const SolutionState &last, const Timers &timers)
+{
+  Json &processes = (*record_)["totals"]["processes"] = compared(numbers_of_process(last, timers), *last.nodes);
+  peak_rss_mb_ = processes["peak_rss_mb"]["max"];
 }
 
 void RunRecord::fail(const std::string &cause)
@@ -145,9 +216,11 @@ void RunRecord::fail(const std::string &cause)
 
 void RunRecord::write()
 {
+  if (!folder_.communicator().is_root())
+    return;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
   (*record_)["totals"]["wall_s"] = wall.count();
-  (*record_)["totals"]["peak_rss_mb"] = peak_rss_mb();
+  (*record_)["totals"]["peak_rss_mb"] = std::max(peak_rss_mb_, peak_rss_mb());
   folder_.write("record.json", record_->dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 } // namespace amontons

@@ -10,12 +10,13 @@
 
 namespace amontons
 {
-/// Keeps record.json (docs/outputs.md) up to date: at the start, after every increment, at the end.
+/// Keeps record.json (docs/outputs.md) up to date: at the start, after every increment, at the end. Every process has
+/// one, process 0 writes.
 class RunRecord : public Observer
 {
 public:
-  /// `folder` must outlive it. @param n_processes that the run uses
-  RunRecord(const ResultFolder &folder, const std::string &title, const std::string &deck, int n_processes);
+  /// `folder` must outlive it.
+  RunRecord(const ResultFolder &folder, const std::string &title, const std::string &deck);
   ~RunRecord() override;
 
   /// Goes on with the record of an earlier run, as written() gave it.
@@ -31,15 +32,19 @@ public:
               const std::string &failure) override;
 
   /// For a run that an exception ended: status "failed", with its cause. A record that was to go on and did not yet
-  /// stays as it is.
+  /// stays as it is. Local.
   void fail(const std::string &cause);
 
 private:
+  void add_totals(const Counters &counters, const Timers &timers);
+  /// What the processes differ in. Collective.
+  void compare_processes(const SolutionState &last, const Timers &timers);
   void write();
 
   const ResultFolder &folder_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::unique_ptr<nlohmann::ordered_json> record_;
+  double peak_rss_mb_ = 0; ///< greatest of all processes, once known
   bool waits_to_go_on_ = false;
 };
 } // namespace amontons

@@ -54,8 +54,8 @@ std::string shares(const Timers &timers, double wall)
 void Screen::start(const SolutionState &initial, std::int64_t n_dofs)
 {
   n_dim_ = initial.mesh->dim;
-  line(fmt::format("{}, {}, {}", plural(initial.mesh->n_nodes(), "node"), plural(initial.mesh->cells.size(), "cell"),
-                   plural(n_dofs, "unknown")));
+  line(fmt::format("{}, {}, {}", plural(initial.mesh->n_global_nodes, "node"),
+                   plural(initial.mesh->n_global_cells, "cell"), plural(n_dofs, "unknown")));
   if (initial.increment > 0)
     line(fmt::format("goes on from increment {}, t = {:.6g}", initial.increment, initial.time));
 }

@@ -69,12 +69,27 @@ std::string component_attributes(std::string_view names)
   return text;
 }
 
-std::string data_array(std::string_view type, std::string_view name, int n_components, const auto &values,
-                       std::string_view component_names = {})
+/// What an array is, as attributes.
+std::string description(std::string_view type, std::string_view name, int n_components,
+                        std::string_view component_names = {})
 {
-  return fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}"{} format="binary">)"
-                     "\n{}\n</DataArray>\n",
-                     type, name, n_components, component_attributes(component_names), encode(bytes_of(values)));
+  return fmt::format(R"(type="{}" Name="{}" NumberOfComponents="{}"{})", type, name, n_components,
+                     component_attributes(component_names));
+}
+
+std::string data_array(const std::string &description, const auto &values)
+{
+  return fmt::format("<DataArray {} format=\"binary\">\n{}\n</DataArray>\n", description, encode(bytes_of(values)));
+}
+
+std::string array_name(const std::string &description)
+{
+  return fmt::format("<PDataArray {}/>\n", description);
+}
+
+std::string points_description()
+{
+  return description("Float64", "Points", 3);
 }
 
 unsigned char vtk_type(CellShape shape)
@@ -98,7 +113,7 @@ unsigned char vtk_type(CellShape shape)
 
 VtuGrid::VtuGrid(int dim, std::span<const double> points)
   : n_points_(points.size() / dim)
-  , points_(data_array("Float64", "Points", 3, in_space(dim, points)))
+  , points_(data_array(points_description(), in_space(dim, points)))
 {
 }
 
@@ -113,26 +128,34 @@ void VtuGrid::add_point_data(const std::string &name, int n_components, std::spa
                              std::string_view component_names)
 {
   AMONTONS_ASSERT(values.size() == n_points() * n_components);
-  point_data_ += data_array("Float64", name, n_components, values, component_names);
+  const std::string what = description("Float64", name, n_components, component_names);
+  point_data_ += data_array(what, values);
+  point_data_names_ += array_name(what);
 }
 
 void VtuGrid::add_point_data(const std::string &name, std::span<const std::int64_t> values)
 {
   AMONTONS_ASSERT(values.size() == n_points());
-  point_data_ += data_array("Int64", name, 1, values);
+  const std::string what = description("Int64", name, 1);
+  point_data_ += data_array(what, values);
+  point_data_names_ += array_name(what);
 }
 
 void VtuGrid::add_cell_data(const std::string &name, int n_components, std::span<const double> values,
                             std::string_view component_names)
 {
   AMONTONS_ASSERT(values.size() == n_cells() * n_components);
-  cell_data_ += data_array("Float64", name, n_components, values, component_names);
+  const std::string what = description("Float64", name, n_components, component_names);
+  cell_data_ += data_array(what, values);
+  cell_data_names_ += array_name(what);
 }
 
 void VtuGrid::add_cell_data(const std::string &name, std::span<const std::int64_t> values)
 {
   AMONTONS_ASSERT(values.size() == n_cells());
-  cell_data_ += data_array("Int64", name, 1, values);
+  const std::string what = description("Int64", name, 1);
+  cell_data_ += data_array(what, values);
+  cell_data_names_ += array_name(what);
 }
 
 std::string VtuGrid::text() const
@@ -144,9 +167,23 @@ std::string VtuGrid::text() const
                      "<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n"
                      "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n"
                      "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
-                     n_points(), n_cells(), points_, data_array("Int64", "connectivity", 1, connectivity_),
-                     data_array("Int64", "offsets", 1, offsets_), data_array("UInt8", "types", 1, types_), point_data_,
-                     cell_data_);
+                     n_points(), n_cells(), points_, data_array(description("Int64", "connectivity", 1), connectivity_),
+                     data_array(description("Int64", "offsets", 1), offsets_),
+                     data_array(description("UInt8", "types", 1), types_), point_data_, cell_data_);
+}
+
+std::string VtuGrid::text_of_pieces(std::span<const std::string> files) const
+{
+  std::string pieces;
+  for (const std::string &file : files)
+    pieces += fmt::format("<Piece Source=\"{}\"/>\n", file);
+  return fmt::format("<?xml version=\"1.0\"?>\n"
+                     R"(<VTKFile type="PUnstructuredGrid" version="1.0" byte_order="LittleEndian" )"
+                     R"(header_type="UInt64" compressor="vtkZLibDataCompressor">)"
+                     "\n<PUnstructuredGrid GhostLevel=\"0\">\n"
+                     "<PPoints>\n{}</PPoints>\n<PPointData>\n{}</PPointData>\n<PCellData>\n{}</PCellData>\n"
+                     "{}</PUnstructuredGrid>\n</VTKFile>\n",
+                     array_name(points_description()), point_data_names_, cell_data_names_, pieces);
 }
 
 std::vector<double> in_space(int dim, std::span<const double> vectors)

@@ -31,6 +31,8 @@ public:
 
   /// The file.
   [[nodiscard]] std::string text() const;
+  /// A file (.pvtu) that stands for all of the given ones together: grids with the same data as this one.
+  [[nodiscard]] std::string text_of_pieces(std::span<const std::string> files) const;
 
 private:
   std::size_t n_points_;
@@ -40,6 +42,8 @@ private:
   std::vector<unsigned char> types_;
   std::string point_data_; ///< <DataArray> elements
   std::string cell_data_;
+  std::string point_data_names_; ///< the same as <PDataArray>: without the numbers
+  std::string cell_data_names_;
 };
 
 /// Vectors of `dim` components with the missing ones zero: [n * dim] -> [n * 3].

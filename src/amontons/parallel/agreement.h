@@ -13,4 +13,12 @@ namespace amontons
 /// @throws UserError, NumericalFailure or InternalError (which stands for any other), with one message on all
 /// processes.
 void agree_on_errors(const Communicator &communicator, const std::function<void()> &work);
+
+/// The same for work that is itself collective: who fails may leave the others waiting for it. It gives them a few
+/// seconds to come to their end too, well or badly; then the error is that of all, as above. If one does not come, it
+/// tells its error on standard error and ends all processes (MPI_Abort) with the error's exit code (base/error.h).
+///
+/// To be put around work before what the work has built is destroyed, where destroying it is collective. One process
+/// alone gets its exception as it is.
+void end_together(const Communicator &communicator, const std::function<void()> &work);
 } // namespace amontons

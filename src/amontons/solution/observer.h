@@ -5,8 +5,8 @@
 namespace amontons
 {
 /// Listens to a run. Calls come in this order: start, then per increment attempt begin, iteration..., and accepted or
-/// rejected, after accepted perhaps checkpoint; at last finish. Every process calls; what an observer writes is its own
-/// affair.
+/// rejected, after accepted perhaps checkpoint; at last finish. Every process calls the same ones for the observers it
+/// has, in the same order; observers that take part in collective calls are to be on all.
 class Observer
 {
 public:
@@ -23,10 +23,11 @@ public:
   virtual void rejected(const IncrementReport & /*report*/, const std::string & /*cause*/) {}
   /// Whether a checkpoint is to be handed over after an accepted increment. @param last of the run
   [[nodiscard]] virtual bool wants_checkpoint(int /*increment*/, bool /*last*/) const { return false; }
+  /// @param checkpoint of the whole on process 0; of no use elsewhere
   virtual void checkpoint(const Checkpoint & /*checkpoint*/) {}
   /// Something the user should know that is no error.
   virtual void warning(const std::string & /*message*/) {}
-  /// @param failure empty when the run reached its end
+  /// @param counters of all processes together @param failure empty when the run reached its end
   virtual void finish(const SolutionState & /*last*/, const Counters & /*counters*/, const Timers & /*timers*/,
                       const std::string & /*failure*/)
   {

@@ -1,5 +1,7 @@
 #include "amontons/solution/run.h"
 
+#include "amontons/base/error.h"
+#include "amontons/parallel/agreement.h"
 #include "amontons/solution/form_choice.h"
 #include "amontons/solution/newton.h"
 #include "amontons/solution/start.h"
@@ -56,12 +58,11 @@ public:
     detect_first(*model_, state_);
     counters_.n_detections += static_cast<std::int64_t>(model_->contacts().size());
     step_ = std::min(model_->options().loading.end / model_->options().loading.increments, most_step());
-    if (from)
-      restore(*from);
     solvers_ = linear_solvers(model_->options(), model_->mesh());
-    take_next_solver();
     if (from)
-      newton_->set_last_increment(from->last);
+      restore(part_of(*from, model_->problem_key(), model_->mesh(), model_->nodes()));
+    else
+      take_next_solver();
   }
 
   RunResult solve()
@@ -112,7 +113,7 @@ public:
     }
     if (!failure.empty() && increment_ > 0)
       hand_over_checkpoint(true);
-    tell(&Observer::finish, last, counters_, timers_, failure);
+    tell(&Observer::finish, last, counters_of_all(), timers_, failure);
     return {failure.empty(), failure};
   }
 
@@ -137,13 +138,13 @@ private:
     return loading.min_increment.value_or(default_min_increment * loading.end / loading.increments);
   }
 
+  /// @param from this process's part
   void restore(const Checkpoint &from)
   {
-    if (from.problem_key != model_->problem_key() || from.state.displacement.size() != state_.displacement.size() ||
-        from.state.multipliers.size() != state_.multipliers.size() || from.state.rigid.size() != state_.rigid.size() ||
-        from.contacts.size() != model_->contacts().size())
-      throw UserError("the checkpoint is of another problem: mesh, kinds of bodies and contacts must be those "
-                      "of the deck");
+    AMONTONS_ASSERT(from.state.displacement.size() == state_.displacement.size() &&
+                    from.state.multipliers.size() == state_.multipliers.size() &&
+                    from.state.rigid.size() == state_.rigid.size() &&
+                    from.contacts.size() == model_->contacts().size());
     if (from.time >= model_->options().loading.end)
       throw UserError("the checkpoint is of t = " + std::to_string(from.time) +
                       ", the end of the run: for a longer "
@@ -158,6 +159,20 @@ private:
       model_->contacts()[c].set_history(from.contacts[c]);
     model_->bodies().set_histories(from.cells);
     model_->update_layout(state_);
+    if (const auto solver = std::find(solvers_.begin(), solvers_.end(), from.linear_solver); solver != solvers_.end())
+      solvers_.erase(solvers_.begin(), solver); // those before it have failed
+    take_next_solver();
+    newton_->set_last_increment(from.last);
+  }
+
+  /// Everything else is counted by all processes alike.
+  [[nodiscard]] Counters counters_of_all() const
+  {
+    Counters out = counters_;
+    auto n = static_cast<double>(out.n_factorizations);
+    model_->nodes().sum_over_processes({&n, 1});
+    out.n_factorizations = static_cast<std::int64_t>(n);
+    return out;
   }
 
   void hand_over_checkpoint(bool last)
@@ -169,15 +184,27 @@ private:
         continue;
       const auto scope = timers_.measure("output");
       if (!checkpoint)
-      {
-        checkpoint = Checkpoint{
-            model_->problem_key(),        increment_, time_, step_, last_motion_, state_, newton_->last_increment(), {},
-            model_->bodies().histories(), counters_};
-        for (const ContactInterface &contact : model_->contacts())
-          checkpoint->contacts.push_back(contact.history());
-      }
+        checkpoint = gathered(local_checkpoint(), model_->mesh(), model_->nodes());
       observer->checkpoint(*checkpoint);
     }
+  }
+
+  [[nodiscard]] Checkpoint local_checkpoint() const
+  {
+    Checkpoint out{model_->problem_key(),
+                   increment_,
+                   time_,
+                   step_,
+                   last_motion_,
+                   solver_,
+                   state_,
+                   newton_->last_increment(),
+                   {},
+                   model_->bodies().histories(),
+                   counters_of_all()};
+    for (const ContactInterface &contact : model_->contacts())
+      out.contacts.push_back(contact.history());
+    return out;
   }
 
   void take_next_solver()
@@ -185,7 +212,8 @@ private:
     std::optional<LastIncrement> last;
     if (newton_)
       last = newton_->last_increment();
-    newton_ = std::make_unique<Newton>(*model_, solvers_.front(), counters_, timers_,
+    solver_ = solvers_.front();
+    newton_ = std::make_unique<Newton>(*model_, solver_, counters_, timers_,
                                        [this](const IterationReport &r) { tell(&Observer::iteration, r); });
     newton_->set_last_increment(std::move(last));
     solvers_.erase(solvers_.begin());
@@ -241,7 +269,8 @@ private:
   Counters counters_;
   std::unique_ptr<Model> model_;
   std::unique_ptr<Newton> newton_;
-  std::vector<LinearSolverType> solvers_; ///< that may yet be taken
+  LinearSolverType solver_ = LinearSolverType::automatic; ///< that is at work
+  std::vector<LinearSolverType> solvers_;                 ///< that may yet be taken
   State state_, start_;
   int increment_ = 0; ///< the last converged one
   double time_ = 0;   ///< at its end
@@ -253,7 +282,10 @@ private:
 RunResult run(const ProblemOptions &options, std::span<Observer *const> observers, const Checkpoint *from,
               const Communicator &communicator)
 {
-  return Run(options, observers, from, communicator).solve();
+  Run run(options, observers, from, communicator);
+  RunResult result;
+  end_together(communicator, [&] { result = run.solve(); });
+  return result;
 }
 
 ProblemCheck check_problem(const ProblemOptions &options)

@@ -20,7 +20,7 @@ struct RunResult
 };
 
 /// Solves a problem to its end and tells the observers, every process its own. Collective.
-/// @param from where an earlier run left off; null: from t = 0
+/// @param from where an earlier run left off, on process 0; elsewhere only whether there is one; null: from t = 0
 /// @throws UserError for what only the mesh can tell is wrong (check_problem finds the same), and for a checkpoint of
 ///         another problem
 RunResult run(const ProblemOptions &options, std::span<Observer *const> observers, const Checkpoint *from = nullptr,

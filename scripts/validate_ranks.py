@@ -1,0 +1,50 @@
+"""See validate-ranks.sh.   validate_ranks.py PROGRAM [EXAMPLE ...]"""
+import sys
+import tempfile
+
+from examples import FINITE_STRAIN, SAME, SMALL_STRAIN, breaches, deck_of, worst
+from results import run, table
+
+PROCESSES = (2, 3, 4)
+HEAD = ["example", "linear", "processes", "Newton", "linear iterations", *SAME]
+
+
+def solve(program, example, overrides, linear, processes):
+    with tempfile.TemporaryDirectory(prefix="amontons-") as folder:
+        finished = run(program, deck_of(example),
+                       [*overrides, "loading.fixed=true", f"solver.linear={linear}", "solver.tolerance=1e-11",
+                        "output.every=0"], folder, processes)
+        finished.tables = {c["name"]: finished.nodes(c["name"]) for c in finished.increments[-1]["contacts"]}
+    finished.nodes = finished.tables.get
+    if not finished.converged:
+        raise RuntimeError(f"{example}, {linear}, {processes} processes: {finished.record['failure']}")
+    return finished
+
+
+def row(example, linear, processes, finished, found):
+    totals = finished.record["totals"]
+    return [example, linear, str(processes), str(totals["n_newton_iterations"]), str(totals["n_linear_iterations"]),
+            *(f"{found[q]:.1e}" if q in found and limit else str(found.get(q, "")) for q, limit in SAME.items())]
+
+
+def main():
+    program, wanted = sys.argv[1], sys.argv[2:]
+    rows, wrong = [], []
+    for example, overrides in {**SMALL_STRAIN, **FINITE_STRAIN}.items():
+        if wanted and example not in wanted:
+            continue
+        for linear in ("direct", "amg", *(["feti"] if example in SMALL_STRAIN else [])):
+            alone = solve(program, example, overrides, linear, 1)
+            rows.append(row(example, linear, 1, alone, {}))
+            for processes in PROCESSES:
+                finished = solve(program, example, overrides, linear, processes)
+                found = worst(alone, finished)
+                rows.append(row(example, linear, processes, finished, found))
+                wrong += [f"{example}, {linear}, {processes} processes: {text}" for text in breaches(found)]
+    print(table(HEAD, rows))
+    print("\n".join(wrong) or "the same on every number of processes")
+    sys.exit(1 if wrong else 0)
+
+
+if __name__ == "__main__":
+    main()
