@@ -21,6 +21,7 @@ int subdomain_size(int dim)
 std::unique_ptr<SystemForm> make_feti(const Model &model)
 {
   FetiOptions options;
+  options.nodes = model.nodes();
   options.points = model.mesh().points;
   options.axisymmetric = model.options().mesh.kinematics == Kinematics::axisymmetric;
   for (const ContactInterface &contact : model.contacts())
