@@ -1,11 +1,13 @@
 #include "amontons/detection/box_tree.h"
 
 #include "amontons/detection/hilbert.h"
+#include "amontons/detection/near_leaves.h"
 #include "amontons/surface/instruction_set.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <memory>
 #include <random>
 #include <set>
 
@@ -154,51 +156,61 @@ void expect_all_boxes_in_reach(int n)
   BoxTree<dim> tree;
   tree.order_by(centres, n);
   tree.refit(all, [&](std::size_t slot) { return boxes[tree.order()[slot]]; });
-  constexpr int n_points = 5;
-  typename BoxTree<dim>::Front front;
-  std::vector<BoxHit> hits(static_cast<std::size_t>(n) * n_points);
+  constexpr int n_points = 5, most = BoxGroup<dim>::most_points;
+  auto group = std::make_unique<BoxGroup<dim>>();
   int n_needed = 0, n_found = 0;
   for (int trial = 0; trial < 50; ++trial)
   {
     std::array<std::array<double, dim>, n_points> points;
     const double bound = 1e-4 * (trial % 5);
+    std::array<float, most> bounds;
+    std::array<std::uint32_t, most> known, likeliest;
+    bounds.fill(-1);
+    known.fill(no_slot);
+    Region<dim> region = Region<dim>::none();
     for (int i = 0; i < n_points; ++i)
     {
       const auto &near = boxes[trial * 7919 % n];
       for (int c = 0; c < dim; ++c)
         points[i][c] = near[c] + 0.01 * std::sin(trial + c + i);
-      tree.set_point(front, i, points[i].data());
+      region.extend(points[i]);
+      const auto x = tree.relative(points[i].data());
+      for (int c = 0; c < dim; ++c)
+        group->x[c][i] = x[c];
+      bounds[i] = BoxTree<dim>::rounded_up(bound / (1 + i));
     }
-    ASSERT_TRUE(tree.collect(front, n_points, bound));
-    std::array<BoxHit *, BoxTree<dim>::Front::most_points> room{};
-    std::array<int, BoxTree<dim>::Front::most_points> n_hits;
-    std::array<std::uint32_t, BoxTree<dim>::Front::most_points> likeliest;
-    for (int i = 0; i < n_points; ++i)
-    {
-      tree.set_bound(front, i, bound / (1 + i));
-      room[i] = hits.data() + static_cast<std::ptrdiff_t>(i) * n;
-    }
-    tree.scan(front, room.data(), n, n_hits.data());
-    tree.likeliest(front, likeliest.data());
+    std::vector<std::uint32_t> leaves(n / BoxTree<dim>::width + 1);
+    const int n_leaves = tree.collect(tree.relative(region.low.data()), tree.relative(region.high.data()), bound,
+                                      leaves.data(), static_cast<int>(leaves.size()));
+    leaves.resize(n_leaves);
+    ASSERT_TRUE(tree.measure(leaves, n_points, bound, *group, likeliest.data()));
+    std::vector<std::uint16_t> near(group->n_slots);
+    box_kernels<dim>().select(*group, bounds.data(), known.data(), near.data());
     for (int i = 0; i < n_points; ++i)
     {
       std::set<Index> found, visited;
-      for (int k = 0; k < n_hits[i]; ++k)
-        found.insert(tree.order()[room[i][k].slot]);
+      for (int k = 0; k < group->n_slots; ++k)
+        if (near[k] >> i & 1)
+          found.insert(tree.order()[group->slots[k]]);
       const double own_bound = bound / (1 + i);
       tree.visit_within(
           points[i].data(), own_bound, [&](Index slot) { visited.insert(tree.order()[slot]); },
           [](int, std::size_t) { return true; });
       EXPECT_EQ(found, visited);
-      EXPECT_EQ(likeliest[i] == no_slot, found.empty());
-      EXPECT_TRUE(likeliest[i] == no_slot || found.contains(tree.order()[likeliest[i]]));
-      n_found += n_hits[i];
+      EXPECT_TRUE(likeliest[i] != no_slot || found.empty());
+      n_found += static_cast<int>(found.size());
       for (Index f = 0; f < n; ++f)
         if (squared_distance<dim>(boxes[f], points[i].data()) <= own_bound)
         {
           ++n_needed;
           EXPECT_TRUE(found.contains(f)) << f;
         }
+      if (found.empty())
+        continue;
+      known[i] = likeliest[i]; // a box that is known is not given again
+      box_kernels<dim>().select(*group, bounds.data(), known.data(), near.data());
+      for (int k = 0; k < group->n_slots; ++k)
+        EXPECT_EQ(near[k] >> i & 1, group->slots[k] != likeliest[i] && found.contains(tree.order()[group->slots[k]]));
     }
   }
   EXPECT_GE(n_needed, 200 / (n < 50 ? 4 : 1));

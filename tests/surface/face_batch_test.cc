@@ -43,7 +43,7 @@ std::array<const double *, 4> corners_of(const Pairs &pairs, int i)
   return result;
 }
 
-ClosestPoint closest_one_by_one(const Pairs &pairs, int i)
+FaceCoordinates face_of(const Pairs &pairs, int i)
 {
   FaceCoordinates face;
   face.n_nodes = pairs.n_nodes;
@@ -51,7 +51,27 @@ ClosestPoint closest_one_by_one(const Pairs &pairs, int i)
   const auto vector = [&](const double *x) { return Eigen::Vector3d(x[0], x[1], pairs.dim == 3 ? x[2] : 0.0); };
   for (int k = 0; k < pairs.n_nodes; ++k)
     face.x[k] = vector(from[k]);
-  return closest_point(face, vector(pairs.points.data() + i * pairs.dim));
+  return face;
+}
+
+Eigen::Vector3d point_of(const Pairs &pairs, int i)
+{
+  const double *x = pairs.points.data() + i * pairs.dim;
+  return {x[0], x[1], pairs.dim == 3 ? x[2] : 0.0};
+}
+
+ClosestPoint closest_one_by_one(const Pairs &pairs, int i)
+{
+  return closest_point(face_of(pairs, i), point_of(pairs, i));
+}
+
+// Bit by bit that of one face alone, which is what face_point() and face_normal() give.
+void expect_the_gap(const Pairs &pairs, int i, LocalPoint xi, double gap)
+{
+  const FaceCoordinates face = face_of(pairs, i);
+  const Eigen::Vector3d x = point_of(pairs, i);
+  EXPECT_EQ(gap, gap_at(face, xi, x)) << pairs.n_nodes;
+  EXPECT_NEAR(gap, (x - face_point(face, xi)).dot(face_normal(face, xi)), 1e-13) << pairs.n_nodes;
 }
 
 TEST(FaceBatch, IsBitByBitTheClosestPointOfOneFace)
@@ -68,12 +88,13 @@ TEST(FaceBatch, IsBitByBitTheClosestPointOfOneFace)
         for (int i = first; i < std::min(n, first + FaceBatch::capacity); ++i)
           n_nodes == 2 ? batch.add<2>(corners_of(pairs, i), pairs.points.data() + 2 * i)
                        : batch.add<3>(corners_of(pairs, i), pairs.points.data() + 3 * i);
-        batch.project();
+        batch.project_with_gaps();
         for (int i = 0; i < batch.size(); ++i)
         {
           const ClosestPoint expected = closest_one_by_one(pairs, first + i);
           EXPECT_EQ(batch.squared_distance(i), expected.squared_distance) << n_nodes << ' ' << distortion;
           EXPECT_EQ(batch.xi(i), expected.xi) << n_nodes << ' ' << distortion;
+          expect_the_gap(pairs, first + i, batch.xi(i), batch.gap(i));
         }
       }
     }
@@ -89,7 +110,7 @@ TEST(FaceBatch, InstructionSetsAgree)
     kernels.push_back(avx512::project_batch);
   struct Output
   {
-    alignas(64) double s[64], t[64], squared_distance[64];
+    alignas(64) double s[64], t[64], squared_distance[64], gap[64];
   };
   for (const int n_nodes : {2, 3, 4})
   {
@@ -104,7 +125,7 @@ TEST(FaceBatch, InstructionSetsAgree)
     for (std::size_t k = 0; k < kernels.size(); ++k)
     {
       Output &output = outputs[k];
-      unproven.push_back(kernels[k]({corners, output.s, output.t, output.squared_distance, n_nodes, 64}));
+      unproven.push_back(kernels[k]({corners, output.s, output.t, output.squared_distance, output.gap, n_nodes, 64}));
       EXPECT_EQ(unproven[k], unproven[0]);
       EXPECT_EQ(std::memcmp(&output, &outputs[0], sizeof(Output)), 0) << n_nodes;
       EXPECT_EQ(output.squared_distance[7], closest_one_by_one(pairs, 7).squared_distance);

@@ -23,39 +23,35 @@ struct BoxTreeView
   int top_level;
 };
 
-/// The boxes near a group of points, found once for all of them; each box is then held against all points at once.
+/// Sixteen points and the faces' boxes near them.
 template<int dim>
-struct BoxFront
+struct BoxGroup
 {
   static constexpr int most_points = 16, capacity = 512;
   alignas(64) float x[dim][most_points];
-  alignas(64) float squared_bounds[most_points]; ///< negative: nothing is within it
-  std::uint32_t slots[capacity];                 ///< the boxes
+  alignas(64) float squared_distances[capacity][most_points]; ///< box by box
+  std::uint32_t slots[capacity];                              ///< the boxes
   int n_slots;
 };
 
-/// A box in reach of a point.
-struct BoxHit
-{
-  std::uint32_t slot;
-  float squared_distance;
-};
 constexpr std::uint32_t no_slot = ~0U;
 
 template<int dim>
 struct BoxKernels
 {
-  /// Collects the boxes within the bound of the box [low, high]. @return false if they are too many for a front
-  bool (*collect)(const BoxTreeView<dim> &tree, const float *low, const float *high, float squared_bound,
-                  BoxFront<dim> &front);
-  /// For each point the box that probably holds the face closest to it: near, and its centre not far either; no_slot
-  /// where none of the front is within its bound.
-  void (*likeliest)(const BoxTreeView<dim> &tree, const BoxFront<dim> &front, std::uint32_t *slots);
-  /// Boxes of the front within each point's bound.
-  /// @param hits [most_points], for each point room for `capacity` @param n_hits how many; where more than `capacity`,
-  ///        the first of them are in hits
-  void (*scan)(const BoxTreeView<dim> &tree, const BoxFront<dim> &front, BoxHit *const *hits, int capacity,
-               int *n_hits);
+  /// Collects the leaves within the bound of the box [low, high]. @return how many; more than `capacity`: too many
+  int (*collect)(const BoxTreeView<dim> &tree, const float *low, const float *high, float squared_bound,
+                 std::uint32_t *leaves, int capacity);
+  /// Of the faces of these leaves those within the bound of the box [low, high], which holds the group's points, and
+  /// their distances to each point. @return false if they are too many for a group
+  /// @param likeliest null, or for each point the box that probably holds the face closest to it: near, and its centre
+  ///        not far either; no_slot where there is none, [most_points]
+  bool (*measure)(const BoxTreeView<dim> &tree, const std::uint32_t *leaves, int n_leaves, const float *low,
+                  const float *high, float squared_bound, BoxGroup<dim> &group, std::uint32_t *likeliest);
+  /// For each box a bit for each point within whose bound it comes.
+  /// @param known of each point the box that does not count @param near [n_slots]
+  void (*select)(const BoxGroup<dim> &group, const float *squared_bounds, const std::uint32_t *known,
+                 std::uint16_t *near);
   /// Positions along the Hilbert curve (hilbert.h) of n cells, n a multiple of 16, `bits` per axis.
   /// @param cells [dim][n], overwritten
   void (*hilbert)(std::uint32_t *const *cells, int n, int bits, std::uint64_t *positions);

@@ -93,33 +93,22 @@ typename BoxTree<dim>::FloatPoint BoxTree<dim>::relative(const double *x) const
 }
 
 template<int dim>
-void BoxTree<dim>::set_point(Front &front, int i, const double *x) const
+bool BoxTree<dim>::measure(std::span<const std::uint32_t> leaves, int n_points, double squared_bound, Group &group,
+                           std::uint32_t *likeliest) const
 {
-  const FloatPoint point = relative(x);
-  for (int c = 0; c < dim; ++c)
-    front.x[c][i] = point[c];
-  front.squared_bounds[i] = -1;
-}
-
-template<int dim>
-bool BoxTree<dim>::collect(Front &front, int n_points, double squared_bound) const
-{
-  front.n_slots = 0;
-  if (order_.empty())
-    return true;
   FloatPoint low, high;
   for (int c = 0; c < dim; ++c)
   {
-    low[c] = high[c] = front.x[c][0];
+    low[c] = high[c] = group.x[c][0];
     for (int i = 1; i < n_points; ++i)
     {
-      low[c] = std::min(low[c], front.x[c][i]);
-      high[c] = std::max(high[c], front.x[c][i]);
+      low[c] = std::min(low[c], group.x[c][i]);
+      high[c] = std::max(high[c], group.x[c][i]);
     }
-    std::fill(front.x[c] + n_points, front.x[c] + Front::most_points, 0.0F);
+    std::fill(group.x[c] + n_points, group.x[c] + Group::most_points, low[c]);
   }
-  std::fill(front.squared_bounds + n_points, front.squared_bounds + Front::most_points, -1.0F);
-  return box_kernels<dim>().collect(view(), low.data(), high.data(), rounded_up(squared_bound), front);
+  return box_kernels<dim>().measure(view(), leaves.data(), static_cast<int>(leaves.size()), low.data(), high.data(),
+                                    rounded_up(squared_bound), group, likeliest);
 }
 
 template class BoxTree<2>;

@@ -22,7 +22,8 @@ public:
   static constexpr int width = BoxNode<dim>::width;
 
   using Box = std::array<double, static_cast<std::size_t>(2 * dim)>; ///< lower corner, then upper corner
-  using Front = BoxFront<dim>;
+  using FloatPoint = std::array<float, static_cast<std::size_t>(dim)>;
+  using Group = BoxGroup<dim>;
 
   /// Sets the order: runs of faces that follow one another, along the curve.
   /// @param centres of the runs @param run faces in each, but for the last, which may have fewer
@@ -43,27 +44,33 @@ public:
   /// Of the faces' boxes, over all axes: the harmonic mean, so that small ones count.
   [[nodiscard]] double mean_extent() const { return mean_extent_; }
 
-  /// Sets a point of a front, without a bound.
-  void set_point(Front &front, int i, const double *x) const;
-  /// Limits what likeliest() and scan() look at for a point.
-  static void set_bound(Front &front, int i, double squared_bound)
+  /// Relative to where the tree's boxes count from, in their precision.
+  [[nodiscard]] FloatPoint relative(const double *x) const;
+  /// Distances to boxes are rounded: they are compared with a bound a little larger than asked.
+  static float rounded_up(double squared_bound)
   {
-    front.squared_bounds[i] = rounded_up(squared_bound);
+    return static_cast<float>(std::min((1 + 1e-5) * squared_bound, 1e38));
   }
 
-  /// Collects the faces that come within the bound of the box about the front's first n points; what the points look at
-  /// must be within it. @return false if they are too many for a front
-  bool collect(Front &front, int n_points, double squared_bound) const;
-
-  /// For each point the face that is probably the closest; no_slot without one within its bound.
-  /// @param slots [most_points]
-  void likeliest(const Front &front, std::uint32_t *slots) const { box_kernels<dim>().likeliest(view(), front, slots); }
-
-  /// Faces within each point's bound: see BoxKernels.
-  void scan(const Front &front, BoxHit *const *hits, int capacity, int *n_hits) const
+  /// Leaves that come within the bound of a box. @param low, high its corners, relative()
+  /// @param leaves [capacity] @return how many; more than `capacity`: too many
+  int collect(const FloatPoint &low, const FloatPoint &high, double squared_bound, std::uint32_t *leaves,
+              int capacity) const
   {
-    box_kernels<dim>().scan(view(), front, hits, capacity, n_hits);
+    if (order_.empty())
+      return 0;
+    return box_kernels<dim>().collect(view(), low.data(), high.data(), rounded_up(squared_bound), leaves, capacity);
   }
+  /// The leaf will be looked at.
+  void expect(std::uint32_t leaf) const
+  {
+    for (std::size_t line = 0; line < sizeof(BoxNode<dim>); line += 64)
+      __builtin_prefetch(reinterpret_cast<const char *>(nodes_.data() + leaf) + line);
+  }
+  /// Faces of these leaves near a group of points: see BoxKernels.
+  /// @param n_points of the group; the others are set to the first
+  bool measure(std::span<const std::uint32_t> leaves, int n_points, double squared_bound, Group &group,
+               std::uint32_t *likeliest) const;
 
   /// Visits the faces whose boxes come within the bound of x, the nearer first.
   /// @param squared_bound read anew after each visit, so that the visitor may shrink it
@@ -79,8 +86,6 @@ public:
   void visit_meeting(const Box &box, Visitor &&visit) const;
 
 private:
-  using FloatPoint = std::array<float, static_cast<std::size_t>(dim)>;
-
   /// A node of the tree (at level -1 a face) and its distance.
   struct Entry
   {
@@ -89,16 +94,9 @@ private:
     std::uint32_t index;
   };
 
-  /// Distances to boxes are rounded: they are compared with a bound a little larger than asked.
-  static float rounded_up(double squared_bound)
-  {
-    return static_cast<float>(std::min((1 + 1e-5) * squared_bound, 1e38));
-  }
-
   float centre_on(const Box &all);
   void clear_incomplete();
   void refit_parents();
-  [[nodiscard]] FloatPoint relative(const double *x) const;
   [[nodiscard]] std::int32_t top_level() const { return static_cast<std::int32_t>(level_begin_.size()) - 2; }
   [[nodiscard]] BoxTreeView<dim> view() const { return {nodes_.data(), level_begin_.data(), top_level()}; }
   static void push_children(const BoxNode<dim> &node, const FloatPoint &x, float bound, const Entry &parent,

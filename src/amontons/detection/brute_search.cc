@@ -14,23 +14,16 @@ public:
       faces_[f] = target.face(f);
   }
 
-  void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) override
+  void closest(const Target &target, const Query &query, const Taker &take, Timers &timers) override
   {
-    const auto time = timers.measure("nearest");
-    const Surface &surface = target.surface();
-    for (const Index node : query.nodes)
+    std::vector<Candidate> found;
+    found.reserve(query.nodes.size());
     {
-      const Eigen::Vector3d x = point_of(query.x, surface.dim, node);
-      Candidate best{-1, {0, 0}, query.w * query.w};
-      for (Index f = 0; f < surface.n_faces(); ++f)
-      {
-        const Candidate candidate = on(f, x);
-        if (candidate.squared_distance <= best.squared_distance &&
-            (best.face < 0 || comes_before(surface, candidate, best)) && query.sees(node, f))
-          best = candidate;
-      }
-      result[node] = best;
+      const auto time = timers.measure("nearest");
+      for (const Index node : query.nodes)
+        found.push_back(closest(target.surface(), query, node));
     }
+    take(query.nodes, found);
   }
 
   void minima(const Target &target, const Query &query, Index node, double radius,
@@ -38,11 +31,31 @@ public:
   {
     const Eigen::Vector3d x = point_of(query.x, target.surface().dim, node);
     for (Index f = 0; f < target.surface().n_faces(); ++f)
-      if (const Candidate candidate = on(f, x); candidate.squared_distance <= radius * radius && query.sees(node, f))
+      if (Candidate candidate = on(f, x); candidate.squared_distance <= radius * radius && query.sees(node, f))
+      {
+        candidate.gap = gap_at(faces_[f], candidate.xi, x);
         result.push_back(candidate);
+      }
   }
 
 private:
+  [[nodiscard]] Candidate closest(const Surface &surface, const Query &query, Index node) const
+  {
+    const Eigen::Vector3d x = point_of(query.x, surface.dim, node);
+    Candidate best{-1, {0, 0}, query.w * query.w};
+    for (Index f = 0; f < surface.n_faces(); ++f)
+    {
+      const Candidate candidate = on(f, x);
+      if (candidate.squared_distance <= best.squared_distance &&
+          (best.face < 0 || comes_before(surface, candidate, best)) && query.sees(node, f))
+        best = candidate;
+    }
+    if (best.face >= 0)
+      best.gap = gap_at(faces_[best.face], best.xi, x);
+    return best;
+  }
+
+  // Without the gap.
   [[nodiscard]] Candidate on(Index f, const Eigen::Vector3d &x) const
   {
     const ClosestPoint closest = closest_point(faces_[f], x);

@@ -235,7 +235,7 @@ void FeatureView::choose(FaceFeature type)
   pair.face = chosen.face;
   pair.xi = projection.xi;
   pair.gap = projection.gap;
-  feature_.normal = chosen.normal;
+  feature_.closest = chosen.xi;
   if (feature_.overhang > 0)
     pair.kind = PairKind::extension;
   else if (in_face(chosen.x.n_nodes, projection.xi, same))
@@ -245,25 +245,25 @@ void FeatureView::choose(FaceFeature type)
 }
 
 // At a point inside a face.
-Feature above_face(const FaceCoordinates &face, const Candidate &candidate, const Vector3d &x)
+Feature above_face(const Candidate &candidate)
 {
   Feature feature;
-  feature.normal = face_normal(face, candidate.xi);
-  feature.pair.face = candidate.face;
-  feature.pair.xi = candidate.xi;
-  feature.pair.distance = std::sqrt(candidate.squared_distance);
-  feature.pair.gap = (x - face_point(face, candidate.xi)).dot(feature.normal);
-  feature.pair.kind = PairKind::face;
-  feature.inside = feature.pair.gap < 0;
+  feature.closest = candidate.xi;
+  feature.pair = {candidate.face, candidate.xi, candidate.gap, std::sqrt(candidate.squared_distance), PairKind::face};
+  feature.inside = candidate.gap < 0;
   return feature;
 }
 } // namespace
 
+bool is_inside_face(const Target &target, const Candidate &candidate)
+{
+  return feature_at(target.n_nodes_of_face(candidate.face), candidate.xi, same).type == FaceFeature::interior;
+}
+
 Feature look_at(const Target &target, const Candidate &candidate, const Vector3d &x, bool only_minima, Sight sight)
 {
-  if (const FaceCoordinates face = target.face(candidate.face);
-      feature_at(face.n_nodes, candidate.xi, same).type == FaceFeature::interior)
-    return above_face(face, candidate, x);
+  if (is_inside_face(target, candidate))
+    return above_face(candidate);
   return FeatureView(target, candidate, x, only_minima, sight).look(candidate.xi);
 }
 } // namespace amontons

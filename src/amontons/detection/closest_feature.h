@@ -15,17 +15,21 @@ struct Candidate
   Index face = -1;
   LocalPoint xi{0, 0};
   double squared_distance = 0;
+  double gap = 0; ///< of the node over this face at xi, along its outward normal
 };
+
+/// Whether the candidate lies inside its face, clear of edges and vertices: then it is all that there is to see there.
+bool is_inside_face(const Target &target, const Candidate &candidate);
 
 /// What the target is at a candidate: which face gives the normal, on which side the impactor node lies.
 struct Feature
 {
-  Pair pair;                          ///< kind `extension` where the node is past the target's end
-  double overhang = 0;                ///< how far past the end, along the face; 0 if not
-  double extent = 0;                  ///< of the face, in that direction
-  Eigen::Vector3d normal = {0, 0, 0}; ///< of pair.face at the closest point
-  bool inside = false;                ///< the node is seen from inside the body
-  bool is_minimum = true;             ///< no attached face comes closer, to first order
+  Pair pair;                ///< kind `extension` where the node is past the target's end
+  double overhang = 0;      ///< how far past the end, along the face; 0 if not
+  double extent = 0;        ///< of the face, in that direction
+  LocalPoint closest{0, 0}; ///< the closest point on pair.face, of which its normal is
+  bool inside = false;      ///< the node is seen from inside the body
+  bool is_minimum = true;   ///< no attached face comes closer, to first order
 };
 
 /// Looks at a candidate with all faces that meet at it (THEORY.md section 4, step 4):

@@ -1,6 +1,7 @@
 #include "amontons/detection/hilbert.h"
 
 #include "amontons/detection/box_kernels.h"
+#include "amontons/detection/large_vector.h"
 
 #include <algorithm>
 #include <bit>
@@ -74,7 +75,7 @@ void Curve<dim>::place(std::span<Key> keys, int bits) const
 }
 
 // Stable, by `n_bits` of the position from `shift` on.
-void counting_sort(const std::vector<Key> &from, std::vector<Key> &to, int shift, int n_bits)
+void counting_sort(std::span<const Key> from, std::span<Key> to, int shift, int n_bits)
 {
   const std::uint64_t mask = (std::uint64_t{1} << n_bits) - 1;
   std::vector<std::uint32_t> place(mask + 2, 0);
@@ -92,7 +93,7 @@ std::vector<Index> curve_order(std::span<const std::array<double, static_cast<st
 {
   constexpr int few = 8, digit = 11;
   const Curve<dim> curve(points);
-  std::vector<Key> keys(points.size()), sorted(points.size());
+  LargeVector<Key> keys(points.size()), sorted(points.size());
   for (std::size_t i = 0; i < keys.size(); ++i)
     keys[i].index = static_cast<Index>(i);
   // Cells about as fine as the points, were these spread evenly over a surface across the cube.

@@ -17,17 +17,21 @@ class NearestNodeSearch : public Search
 public:
   void fill(const Target &target, const Query &query) override { grid_.fill(target, query.w); }
 
-  void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) override
+  void closest(const Target &target, const Query &query, const Taker &take, Timers &timers) override
   {
-    nearest_.resize(result.size());
+    nearest_.resize(query.x.size() / target.surface().dim);
+    found_.resize(nearest_.size());
     {
       const auto time = timers.measure("nearest");
       const NodeGrid::Node *nearby = nullptr;
       for (const Index node : query.nodes)
         nearest_[node] = nearest(target.surface(), query, node, nearby);
     }
-    const auto time = timers.measure("projection");
-    project(target, query, result);
+    {
+      const auto time = timers.measure("projection");
+      project(target, query);
+    }
+    take_in_blocks(query.nodes, take);
   }
 
   void minima(const Target &target, const Query &query, Index node, double radius,
@@ -37,7 +41,7 @@ public:
       return;
     const Vector3d x = point_of(query.x, target.surface().dim, node);
     for (const Index f : target.surface().faces_of_node(nearest_[node]))
-      if (const Candidate candidate = candidate_on(target, f, x);
+      if (const Candidate candidate = candidate_on(target.face(f), f, x);
           candidate.squared_distance <= radius * radius && query.sees(node, f))
         result.push_back(candidate);
   }
@@ -105,7 +109,7 @@ private:
     return result;
   }
 
-  void project(const Target &target, const Query &query, std::span<Candidate> result) const
+  void project(const Target &target, const Query &query)
   {
     const Surface &surface = target.surface();
     const std::span<const double> target_x = target.coordinates();
@@ -113,20 +117,33 @@ private:
     const std::array<PairBatch *, 5> batches{nullptr, nullptr, &segments, &triangles, &quadrilaterals};
     for (const Index node : query.nodes)
     {
-      result[node].face = -1;
+      found_[node].face = -1;
       if (nearest_[node] < 0)
         continue;
       const double *x = query.x.data() + static_cast<std::ptrdiff_t>(node) * surface.dim;
       for (const Index f : surface.faces_of_node(nearest_[node]))
         if (query.sees(node, f))
-          batches[surface.face(f).size()]->add(node, f, x, result);
+          batches[surface.face(f).size()]->add(node, f, x, found_);
     }
     for (PairBatch *batch : {&segments, &triangles, &quadrilaterals})
-      batch->project(result);
+      batch->project(found_);
+  }
+
+  void take_in_blocks(std::span<const Index> nodes, const Taker &take) const
+  {
+    std::array<Candidate, 256> found;
+    for (std::size_t first = 0; first < nodes.size(); first += found.size())
+    {
+      const auto block = nodes.subspan(first, std::min(found.size(), nodes.size() - first));
+      for (std::size_t i = 0; i < block.size(); ++i)
+        found[i] = found_[block[i]];
+      take(block, std::span<const Candidate>(found).first(block.size()));
+    }
   }
 
   NodeGrid grid_;
   std::vector<Index> nearest_; ///< target node per impactor node
+  std::vector<Candidate> found_;
 };
 } // namespace
 

@@ -36,11 +36,11 @@ public:
   /// Looks at the pairs that still wait.
   void project(std::span<Candidate> result)
   {
-    batch_.project();
+    batch_.project_with_gaps();
     for (int i = 0; i < batch_.size(); ++i)
     {
       const auto [node, face] = pairs_[i];
-      const Candidate candidate{face, batch_.xi(i), batch_.squared_distance(i)};
+      const Candidate candidate{face, batch_.xi(i), batch_.squared_distance(i), batch_.gap(i)};
       if (result[node].face < 0 || comes_before(surface_, candidate, result[node]))
         result[node] = candidate;
     }

@@ -57,7 +57,7 @@ public:
   explicit Side(const Surface &surface)
     : given_(surface)
   {
-    if (std::vector<Index> order = visiting_order(surface); !order.empty())
+    if (std::vector<Index> order = numbering_order(surface); !order.empty())
       own_.emplace(surface, std::move(order));
   }
 

@@ -3,7 +3,9 @@
 #include "amontons/detection/closest_feature.h"
 #include "amontons/detection/self_contact_exclusions.h"
 #include "amontons/detection/target.h"
+#include "amontons/surface/face_batch.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,11 +35,14 @@ public:
   /// Takes in where the target is now.
   virtual void fill(const Target &target, const Query &query) = 0;
 
-  /// For each node of the query the face it sees with the closest point within w, -1 without; equal distances go to the
-  /// smaller face id.
-  /// @param result [n_nodes], all of the impactor's; on entry what the last detection found, as a hint
+  /// What becomes of the faces that are found: called with some nodes and, for each, the closest.
+  using Taker = std::function<void(std::span<const Index>, std::span<const Candidate>)>;
+
+  /// For each node of the query the face it sees with the closest point within w, face -1 without; equal distances go
+  /// to the smaller face id.
+  /// @param take called for all of the query's nodes in their order, some at a time; may call minima()
   /// @param timers the phases "nearest" and, where it is a step of its own, "projection"
-  virtual void closest(const Target &target, const Query &query, std::span<Candidate> result, Timers &timers) = 0;
+  virtual void closest(const Target &target, const Query &query, const Taker &take, Timers &timers) = 0;
 
   /// Appends the faces within `radius` of a node, with their closest points, that may be local minima of the distance
   /// (they need not be), of those that the method considers.
@@ -50,10 +55,10 @@ std::unique_ptr<Search> make_tree_search(int dim);
 std::unique_ptr<Search> make_nearest_node_search();
 
 /// The face's closest point as a candidate.
-inline Candidate candidate_on(const Target &target, Index face, const Eigen::Vector3d &x)
+inline Candidate candidate_on(const FaceCoordinates &coordinates, Index face, const Eigen::Vector3d &x)
 {
-  const ClosestPoint closest = closest_point(target.face(face), x);
-  return {face, closest.xi, closest.squared_distance};
+  const ClosestPoint closest = closest_point(coordinates, x);
+  return {face, closest.xi, closest.squared_distance, gap_at(coordinates, closest.xi, x)};
 }
 
 /// The order of candidates: distance, then the faces' ids. True if a comes before b.

@@ -9,9 +9,15 @@ namespace amontons
 template<int dim>
 void SortedFaces<dim>::number(const Surface &surface, std::span<const Index> order)
 {
-  order_ = order.data();
-  face_offsets_ = surface.face_offsets.data();
-  face_nodes_ = surface.face_nodes.data();
+  nodes_.clear();
+  nodes_.reserve(order.size());
+  for (const Index f : order)
+  {
+    Nodes &nodes = nodes_.emplace_back();
+    nodes.fill(no_node);
+    const auto own = surface.face(f);
+    std::copy(own.begin(), own.end(), nodes.begin());
+  }
   marked_.clear();
 }
 

@@ -18,6 +18,10 @@ Target::Target(const Surface &surface)
   : surface_(&surface)
 {
   AMONTONS_ASSERT(surface.node_face_offsets.size() == surface.node_ids.size() + 1);
+  const std::size_t n_faces = surface.face_ids.size();
+  for (const int n : {2, 3, 4}) // a face in space has three or four
+    if ((surface.dim == 2) == (n == 2) && surface.face_nodes.size() == n * n_faces)
+      n_nodes_of_all_ = n;
 }
 
 Index Target::neighbour(Index f, int k) const

@@ -17,6 +17,10 @@ public:
 
   [[nodiscard]] const Surface &surface() const { return *surface_; }
   [[nodiscard]] std::span<const double> coordinates() const { return x_; }
+  [[nodiscard]] int n_nodes_of_face(Index f) const
+  {
+    return n_nodes_of_all_ > 0 ? n_nodes_of_all_ : static_cast<int>(surface_->face(f).size());
+  }
   [[nodiscard]] FaceCoordinates face(Index f) const { return gather_face(surface_->dim, surface_->face(f), x_); }
   [[nodiscard]] Eigen::Vector3d node(Index i) const
   {
@@ -30,5 +34,6 @@ public:
 private:
   const Surface *surface_;
   std::span<const double> x_;
+  int n_nodes_of_all_ = 0; ///< of every face; 0: they differ
 };
 } // namespace amontons

@@ -44,7 +44,7 @@ void TreeSearch<dim>::order(const Target &target)
     squared_edges += (corner(f, 1) - corner(f, 0)).squaredNorm();
   }
   const Index run = squared_steps <= 4 * squared_edges ? most_in_run : 1;
-  std::vector<std::array<double, dim>> centres((static_cast<std::size_t>(n_faces) + run - 1) / run);
+  LargeVector<std::array<double, dim>> centres((static_cast<std::size_t>(n_faces) + run - 1) / run);
   for (std::size_t i = 0; i < centres.size(); ++i)
   {
     const Index first = static_cast<Index>(i) * run, last = std::min(first + run, n_faces) - 1;
@@ -53,158 +53,92 @@ void TreeSearch<dim>::order(const Target &target)
   }
   tree_.order_by(centres, n_faces, run);
   faces_.number(*surface_, tree_.order());
-  near_ = {};
+  near_.clear();
+  hints_.clear();
 }
 
 template<int dim>
 void TreeSearch<dim>::refit()
 {
+  near_.shrink(faces_.motion());
   tree_.refit(faces_.box_of_all(), [this](std::size_t slot) { return faces_.box(static_cast<std::uint32_t>(slot)); });
   faces_.mark();
-  near_.expire();
 }
 
 template<int dim>
-void TreeSearch<dim>::closest(const Target &, const Query &query, std::span<Candidate> result, Timers &timers)
+void TreeSearch<dim>::closest(const Target &, const Query &query, const Taker &take, Timers &timers)
 {
-  const auto time = timers.measure("nearest");
-  near_.resize(result.size());
+  if (const std::size_t n_nodes = query.x.size() / dim; hints_.size() != n_nodes)
+    hints_.assign(n_nodes, no_slot);
+  near_.begin((query.nodes.size() + block_size - 1) / block_size);
   usual_radius_ = query.w;
   usual_margin_ = 0;
-  unproven_.clear();
-  const auto in_blocks = [&](std::span<const Index> nodes, auto look)
+  for (std::size_t first = 0; first < query.nodes.size(); first += block_size)
   {
-    for (std::size_t first = 0; first < nodes.size(); first += block_size)
-      (this->*look)(query, nodes.subspan(first, std::min<std::size_t>(block_size, nodes.size() - first)), result);
-  };
-  if (!near_.knows_faces())
-    return in_blocks(query.nodes, &TreeSearch::seek);
-  in_blocks(query.nodes, &TreeSearch::verify);
-  in_blocks(unproven_, &TreeSearch::seek);
-}
-
-// Takes the closest of the faces known to be near, where that is proven to be the closest of all.
-template<int dim>
-void TreeSearch<dim>::verify(const Query &query, std::span<const Index> nodes, std::span<Candidate> result)
-{
-  start(query, nodes);
-  const int n = static_cast<int>(nodes.size());
-  std::array<double, block_size> motion;
-  for (int place = 0; place < n; ++place)
-  {
-    Sought &sought = block_[place];
-    motion[place] = near_.motion(sought.node, sought.x.data(), faces_.motion());
-    const double clearance = near_.clearance(sought.node, motion[place]);
-    if (near_.faces(sought.node).empty() ? !(clearance > query.w) : clearance < 0)
-      sought.n_hits = Sought::all_seen; // not to be proven
-    else if (!near_.faces(sought.node).empty())
-      add(query, place, static_cast<std::uint32_t>(near_.hint(sought.node)));
-  }
-  project_all();
-  for (int place = 0; place < n; ++place)
-  {
-    Sought &sought = block_[place];
-    const double bound = sought.bound();
-    if (sought.n_hits < 0 || !(bound < near_.clearance(sought.node, motion[place])))
-      sought.n_hits = Sought::all_seen;
-    else
+    const auto nodes = query.nodes.subspan(first, std::min<std::size_t>(block_size, query.nodes.size() - first));
     {
-      const auto reach = static_cast<float>((bound + motion[place]) * (bound + motion[place])) * (1 + 1e-5F);
-      const std::uint32_t known = sought.slot;
-      for (const auto &[slot, squared_distance] : near_.faces(sought.node))
-        if (slot != known && squared_distance <= reach)
-          add(query, place, slot);
+      const auto time = timers.measure("nearest");
+      seek(query, first / block_size, nodes);
     }
-  }
-  project_all();
-  for (int place = 0; place < n; ++place)
-  {
-    const Sought &sought = block_[place];
-    if (sought.face >= 0)
-      near_.set_hint(sought.node, sought.slot);
-    if (sought.n_hits < 0)
-      unproven_.push_back(sought.node);
-    else
-      result[sought.node] = {sought.bound() < query.w || sought.squared_distance <= query.w * query.w ? sought.face
-                                                                                                      : -1,
-                             sought.xi, sought.squared_distance};
-  }
-}
-
-template<int dim>
-void TreeSearch<dim>::start(const Query &query, std::span<const Index> nodes)
-{
-  for (std::size_t place = 0; place < nodes.size(); ++place)
-  {
-    Sought &sought = block_[place] = Sought{};
-    sought.node = nodes[place];
-    sought.w = query.w;
-    for (int c = 0; c < dim; ++c)
-      sought.x[c] = query.x[static_cast<std::size_t>(sought.node) * dim + c];
+    take(nodes, std::span<const Candidate>(found_).first(nodes.size()));
   }
 }
 
 template<int dim>
 void TreeSearch<dim>::add(const Query &query, int place, std::uint32_t slot)
 {
-  if (query.exclusions && !query.sees(block_[place].node, tree_.order()[slot]))
+  if (query.exclusions && !query.sees(nodes_[place], tree_.order()[slot]))
     return;
   Batch &batch = batches_[faces_.n_nodes(slot) == 4 ? 1 : 0];
-  batch.pairs[batch.faces.template add<dim>(faces_.corners(slot), block_[place].x.data())] = {place, slot};
-  if (batch.faces.full())
+  batch.pairs[batch.n_pairs++] = {place, slot};
+  faces_.expect_corners(slot);
+  if (batch.n_pairs == FaceBatch::capacity)
     project(batch);
 }
 
 template<int dim>
 void TreeSearch<dim>::project(Batch &batch)
 {
-  batch.faces.project();
-  for (int i = 0; i < batch.faces.size(); ++i)
-    consider(block_[batch.pairs[i].place], batch.pairs[i].slot, batch.faces.xi(i), batch.faces.squared_distance(i));
   batch.faces.clear();
+  for (const auto &[place, slot] : std::span(batch.pairs).first(static_cast<std::size_t>(batch.n_pairs)))
+    batch.faces.template add<dim>(faces_.corners(slot), block_[place].x.data());
+  batch.faces.project_with_gaps();
+  for (int i = 0; i < batch.n_pairs; ++i)
+  {
+    const auto [place, slot] = batch.pairs[i];
+    consider(block_[place], slot, batch.faces.xi(i), batch.faces.squared_distance(i), batch.faces.gap(i));
+  }
+  batch.n_pairs = 0;
 }
 
 template<int dim>
 void TreeSearch<dim>::project_all()
 {
   for (Batch &batch : batches_)
-    if (batch.faces.size() > 0)
+    if (batch.n_pairs > 0)
       project(batch);
 }
 
 template<int dim>
-void TreeSearch<dim>::consider(Sought &sought, std::uint32_t slot, LocalPoint xi, double squared_distance)
+void TreeSearch<dim>::consider(Sought &sought, std::uint32_t slot, LocalPoint xi, double squared_distance, double gap)
 {
-  const Index face = tree_.order()[slot];
-  if (sought.face >= 0 &&
-      (squared_distance > sought.squared_distance ||
-       (squared_distance == sought.squared_distance && surface_->face_ids[face] >= surface_->face_ids[sought.face])))
+  if (sought.is_found() && (squared_distance > sought.squared_distance ||
+                            (squared_distance == sought.squared_distance && id(slot) >= id(sought.slot))))
     return;
   sought.slot = slot;
-  sought.face = face;
   sought.xi = xi;
   sought.squared_distance = squared_distance;
+  sought.gap = gap;
 }
 
 template<int dim>
-double TreeSearch<dim>::shortest_edge(std::uint32_t slot) const
+double TreeSearch<dim>::first_edge(std::uint32_t slot) const
 {
   const auto corners = faces_.corners(slot);
-  const auto squared_length = [&](int i, int j)
-  {
-    double result = 0;
-    for (int c = 0; c < dim; ++c)
-      result += (corners[j][c] - corners[i][c]) * (corners[j][c] - corners[i][c]);
-    return result;
-  };
-  double shortest = squared_length(0, 1);
-  if constexpr (dim == 3)
-  {
-    shortest = std::min(shortest, squared_length(1, 2)); // a quadrilateral's other two are much like these
-    if (faces_.n_nodes(slot) == 3)
-      shortest = std::min(shortest, squared_length(2, 0));
-  }
-  return std::sqrt(shortest);
+  double squared_length = 0;
+  for (int c = 0; c < dim; ++c)
+    squared_length += (corners[1][c] - corners[0][c]) * (corners[1][c] - corners[0][c]);
+  return std::sqrt(squared_length);
 }
 
 template<int dim>
@@ -227,9 +161,9 @@ void TreeSearch<dim>::minima(const Target &target, const Query &query, Index nod
         const Index face = tree_.order()[slot];
         if (!query.sees(node, face))
           return;
-        const ClosestPoint closest = closest_point(faces_.face(static_cast<std::uint32_t>(slot)), x);
-        if (closest.squared_distance <= radius * radius)
-          result.push_back({face, closest.xi, closest.squared_distance});
+        if (const Candidate candidate = candidate_on(faces_.face(static_cast<std::uint32_t>(slot)), face, x);
+            candidate.squared_distance <= radius * radius)
+          result.push_back(candidate);
       },
       [&](int level, std::size_t index) {
         return !cones_are_current_ || cones_.may_hold_minimum(level, index, x, query.extension, query.ends_anywhere);

@@ -1,183 +1,258 @@
 #include "amontons/detection/tree_search.h"
 
-#include <limits>
+#include <bit>
 
 namespace amontons
 {
+// Fills found_ for the nodes.
 template<int dim>
-void TreeSearch<dim>::seek(const Query &query, std::span<const Index> nodes, std::span<Candidate> result)
+void TreeSearch<dim>::seek(const Query &query, std::size_t block, std::span<const Index> nodes)
 {
   start(query, nodes);
+  region_ = near_.region(block);
+  n_leaves_ = static_cast<int>(near_.leaves(block).size());
+  std::copy_n(near_.leaves(block).data(), n_leaves_, leaves_.data());
+  is_front_of_block_ = true;
   std::array<int, block_size> pending;
   int n_pending = static_cast<int>(nodes.size());
   for (int place = 0; place < n_pending; ++place)
-  {
     pending[place] = place;
-    if (const std::int64_t hint = near_.hint(nodes[place]); hint >= 0)
-      add(query, place, static_cast<std::uint32_t>(hint));
-  }
-  project_all();
-  for (int place = 0; place < n_pending; ++place)
-    block_[place].radius = std::min(usual_radius_, block_[place].bound()); // a face known from before may be far by now
   while (n_pending > 0)
   {
-    n_groups_ = 0;
     const std::span<const int> places(pending.data(), static_cast<std::size_t>(n_pending));
-    for (std::size_t first = 0; first < places.size(); first += group_size)
-      find_fronts(query, places.subspan(first, std::min<std::size_t>(group_size, places.size() - first)));
-    guess(query);
-    look_around(query);
+    seek_once(query, places);
     int n_left = 0;
     for (const int place : places)
-      if (is_done(block_[place], query.w))
-        finish(query, place, result[block_[place].node]);
-      else
+      if (!is_done(block_[place]))
         pending[n_left++] = place;
     n_pending = n_left;
   }
-  expect_alike(query, std::span(block_).first(nodes.size()));
+  if (is_front_of_block_)
+    near_.keep(block, region_, std::span(leaves_).first(static_cast<std::size_t>(n_leaves_)));
+  else
+    near_.forget(block);
+  for (std::size_t place = 0; place < nodes.size(); ++place)
+  {
+    const Sought &sought = block_[place];
+    hints_[nodes[place]] = sought.slot;
+    const bool is_within = sought.is_found() && sought.squared_distance <= query.w * query.w;
+    found_[place] = {is_within ? tree_.order()[sought.slot] : -1, sought.xi, sought.squared_distance, sought.gap};
+  }
+  expect_alike(query, static_cast<int>(nodes.size()));
 }
 
-// If not, sets the radius to look in next.
+// Sets the radius to look in first: a face known from before bounds it, or what the predecessors needed.
 template<int dim>
-bool TreeSearch<dim>::is_done(Sought &sought, double w) const
+void TreeSearch<dim>::start(const Query &query, std::span<const Index> nodes)
 {
-  const double bound = sought.bound();
-  if (sought.n_hits == Sought::all_seen || (sought.n_hits >= 0 && bound <= sought.radius))
+  nodes_ = nodes;
+  const int n = static_cast<int>(nodes.size());
+  for (int place = 0; place < n; ++place)
+  {
+    Sought &sought = block_[place] = Sought{};
+    sought.w = query.w;
+    const double *x = query.x.data() + static_cast<std::ptrdiff_t>(nodes[place]) * dim;
+    std::copy_n(x, dim, sought.x.begin());
+  }
+  for (int place = 0; place < n; ++place)
+    if (const std::uint32_t hint = hints_[nodes[place]]; hint != no_slot)
+      add(query, place, hint);
+  project_all();
+  for (int place = 0; place < n; ++place) // a face known from before may be far by now
+    block_[place].radius = std::min(usual_radius_, block_[place].bound());
+}
+
+// A block comes next: what lies far in memory is fetched in time.
+template<int dim>
+void TreeSearch<dim>::expect(const Query &query, std::size_t block, std::span<const Index> nodes) const
+{
+  for (const Index node : nodes)
+  {
+    __builtin_prefetch(query.x.data() + static_cast<std::ptrdiff_t>(node) * dim);
+    __builtin_prefetch(hints_.data() + node);
+  }
+  for (const std::uint32_t leaf : near_.leaves(block))
+    tree_.expect(leaf);
+  expect(near_.leaves(block));
+}
+
+template<int dim>
+void TreeSearch<dim>::expect(std::span<const std::uint32_t> leaves) const
+{
+  for (const std::uint32_t leaf : leaves)
+    for (std::uint32_t i = 0; i < BoxTree<dim>::width; i += dim == 2 ? 8 : 4) // a line of memory holds as many
+      faces_.expect(leaf * BoxTree<dim>::width + i);
+}
+
+// Looks for each node within its radius.
+template<int dim>
+void TreeSearch<dim>::seek_once(const Query &query, std::span<const int> places)
+{
+  if (const Region<dim> needed = region_of(places); !region_.covers(needed))
+  {
+    std::array<int, block_size> all;
+    for (int place = 0; place < static_cast<int>(nodes_.size()); ++place)
+      all[place] = place;
+    Region<dim> block = region_of(std::span(all).first(nodes_.size()));
+    block.reach = needed.reach;
+    is_front_of_block_ = collect(block, usual_margin_);
+  }
+  for (std::size_t first = 0; first < places.size(); first += group_size)
+    seek_group(query, places.subspan(first, std::min<std::size_t>(group_size, places.size() - first)));
+  project_all();
+}
+
+// The nodes and the largest of their radii.
+template<int dim>
+Region<dim> TreeSearch<dim>::region_of(std::span<const int> places) const
+{
+  Region<dim> result = Region<dim>::none();
+  double radius = 0;
+  for (const int place : places)
+  {
+    result.extend(block_[place].x);
+    radius = std::max(radius, block_[place].radius);
+  }
+  result.reach = radius + faces_.motion();
+  return result;
+}
+
+// Collects the leaves of a region. @return false if they are too many
+template<int dim>
+bool TreeSearch<dim>::collect(const Region<dim> &needed, double beyond)
+{
+  region_ = needed;
+  region_.reach += beyond;
+  n_leaves_ = tree_.collect(tree_.relative(region_.low.data()), tree_.relative(region_.high.data()),
+                            region_.reach * region_.reach, leaves_.data(), most_leaves);
+  if (n_leaves_ <= most_leaves)
+  {
+    expect(std::span(leaves_).first(static_cast<std::size_t>(n_leaves_)));
     return true;
-  if (sought.face >= 0)
-    sought.radius = bound;
-  else if (sought.n_hits >= 0)
-    sought.radius = std::min(2 * sought.radius, w);
+  }
+  region_ = Region<dim>::none();
+  n_leaves_ = 0;
   return false;
+}
+
+template<int dim>
+void TreeSearch<dim>::seek_group(const Query &query, std::span<const int> places)
+{
+  const Region<dim> needed = region_of(places);
+  if (!region_.covers(needed))
+  {
+    is_front_of_block_ = false;
+    if (!collect(needed, 0))
+      return part_crowd(query, places);
+  }
+  if (!measure(places, needed))
+    return part_crowd(query, places);
+  guess(query, places);
+  look_around(query, places);
+}
+
+// Holds the nodes against the faces near them. All are seen as far as the farthest of them looks.
+template<int dim>
+bool TreeSearch<dim>::measure(std::span<const int> places, const Region<dim> &needed)
+{
+  bool all_known = true;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    Sought &sought = block_[places[i]];
+    const auto x = tree_.relative(sought.x.data());
+    for (int c = 0; c < dim; ++c)
+      group_.x[c][i] = x[c];
+    all_known = all_known && sought.is_found() && sought.bound() <= sought.radius;
+  }
+  if (!tree_.measure(std::span(leaves_).first(static_cast<std::size_t>(n_leaves_)), static_cast<int>(places.size()),
+                     needed.reach * needed.reach, group_, all_known ? nullptr : likeliest_.data()))
+    return false;
+  if (all_known)
+    likeliest_.fill(no_slot);
+  for (const int place : places)
+    block_[place].radius = std::max(block_[place].radius, needed.reach - faces_.motion());
+  return true;
 }
 
 // Projects on the likeliest face of each node that has none yet within its radius.
 template<int dim>
-void TreeSearch<dim>::guess(const Query &query)
+void TreeSearch<dim>::guess(const Query &query, std::span<const int> places)
 {
-  for (Group &group : std::span(groups_).first(n_groups_))
-  {
-    bool all_known = true;
-    for (int i = 0; i < group.n_places; ++i)
-      if (const Sought &sought = block_[group.places[i]]; sought.face < 0 || sought.bound() > sought.radius)
-      {
-        const double reach = sought.radius + faces_.motion();
-        tree_.set_bound(group.front, i, reach * reach);
-        all_known = false;
-      }
-    if (all_known)
-      continue;
-    std::array<std::uint32_t, group_size> slots;
-    tree_.likeliest(group.front, slots.data());
-    for (int i = 0; i < group.n_places; ++i)
-      if (slots[i] != no_slot && slots[i] != block_[group.places[i]].slot)
-        add(query, group.places[i], slots[i]);
-  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (const Sought &sought = block_[places[i]]; likeliest_[i] != no_slot && likeliest_[i] != sought.slot &&
+                                                  (!sought.is_found() || sought.bound() > sought.radius))
+      add(query, places[i], likeliest_[i]);
   project_all();
 }
 
 // Projects on all that may be closer.
 template<int dim>
-void TreeSearch<dim>::look_around(const Query &query)
+void TreeSearch<dim>::look_around(const Query &query, std::span<const int> places)
 {
-  for (Group &group : std::span(groups_).first(n_groups_))
+  alignas(64) std::array<float, group_size> bounds;
+  alignas(64) std::array<std::uint32_t, group_size> known;
+  bounds.fill(-1);
+  known.fill(no_slot);
+  for (std::size_t i = 0; i < places.size(); ++i)
   {
-    std::array<BoxHit *, group_size> room{};
-    std::array<int, group_size> n_hits;
-    for (int i = 0; i < group.n_places; ++i)
-    {
-      Sought &sought = block_[group.places[i]];
-      set_reach(query, sought);
-      tree_.set_bound(group.front, i, sought.reach * sought.reach);
-      room[i] = hits(group.places[i]).data();
-    }
-    tree_.scan(group.front, room.data(), max_hits, n_hits.data());
-    for (int i = 0; i < group.n_places; ++i)
-    {
-      Sought &sought = block_[group.places[i]];
-      sought.n_hits = n_hits[i];
-      if (sought.n_hits > max_hits)
-      {
-        descend(query, sought);
-        continue;
-      }
-      const double to_face = std::min(sought.bound(), sought.radius) + faces_.motion();
-      const auto bound = static_cast<float>(to_face * to_face) * (1 + 1e-5F);
-      const std::uint32_t known = sought.slot;
-      for (int k = 0; k < n_hits[i]; ++k)
-        if (room[i][k].squared_distance <= bound && room[i][k].slot != known)
-          add(query, group.places[i], room[i][k].slot);
-    }
+    const Sought &sought = block_[places[i]];
+    const double reach = std::min(sought.bound(), sought.radius) + faces_.motion();
+    bounds[i] = BoxTree<dim>::rounded_up(reach * reach);
+    known[i] = sought.slot;
   }
-  project_all();
+  box_kernels<dim>().select(group_, bounds.data(), known.data(), in_reach_.data());
+  for (int k = 0; k < group_.n_slots; ++k)
+    for (unsigned left = in_reach_[k]; left != 0; left &= left - 1)
+      add(query, places[std::countr_zero(left)], group_.slots[k]);
 }
 
-// How far to look about a node: as far as its closest face, and the margin beyond for the list of near ones.
+// If not, sets the radius to look in next.
 template<int dim>
-void TreeSearch<dim>::set_reach(const Query &query, Sought &sought) const
+bool TreeSearch<dim>::is_done(Sought &sought)
 {
-  sought.margin = sought.face < 0 || query.exclusions ? 0 : margin * shortest_edge(sought.slot);
-  const double near = std::min(sought.bound(), sought.radius);
-  sought.reach = std::min(near + sought.margin, sought.radius + usual_margin_) + faces_.motion();
+  const double bound = sought.bound();
+  if (sought.is_done || bound <= sought.radius)
+    return true;
+  if (sought.is_found())
+    sought.radius = bound;
+  else
+    sought.radius = std::min(2 * sought.radius, sought.w);
+  return false;
 }
 
 // What the last nodes needed the next will mostly need too.
 template<int dim>
-void TreeSearch<dim>::expect_alike(const Query &query, std::span<const Sought> block)
+void TreeSearch<dim>::expect_alike(const Query &query, int n_nodes)
 {
   double radius = 1e-3 * query.w;
-  usual_margin_ = 0;
-  for (const Sought &sought : block.last(std::min<std::size_t>(group_size, block.size())))
-  {
-    radius = std::max(radius, 1.25 * sought.bound());
-    usual_margin_ = std::max(usual_margin_, sought.margin);
-  }
+  for (const Sought &sought : std::span(block_).first(static_cast<std::size_t>(n_nodes)))
+    radius = std::max(radius, 1.2 * sought.bound());
   usual_radius_ = std::min(radius, query.w);
+  if (const std::uint32_t slot = block_[n_nodes - 1].slot; slot != no_slot)
+    usual_margin_ = margin * first_edge(slot);
 }
 
-// The faces within the largest of the nodes' radii and margins.
+// Too many faces for all: the radius is taken for too large, then the nodes for too far apart.
 template<int dim>
-void TreeSearch<dim>::find_fronts(const Query &query, std::span<const int> places)
-{
-  Group &group = groups_[n_groups_];
-  group.n_places = 0;
-  double largest = 0;
-  for (const int place : places)
-  {
-    tree_.set_point(group.front, group.n_places, block_[place].x.data());
-    group.places[group.n_places++] = place;
-    largest = std::max(largest, block_[place].radius);
-  }
-  const double reach = largest + usual_margin_ + faces_.motion();
-  if (tree_.collect(group.front, group.n_places, reach * reach))
-    ++n_groups_;
-  else
-    find_fronts_in_a_crowd(query, places);
-}
-
-// Too many faces for all: the radius is taken for too large, then the group for too wide.
-template<int dim>
-void TreeSearch<dim>::find_fronts_in_a_crowd(const Query &query, std::span<const int> places)
+void TreeSearch<dim>::part_crowd(const Query &query, std::span<const int> places)
 {
   bool is_first = false;
   for (const int place : places)
-    if (Sought &sought = block_[place]; sought.face < 0 && !sought.is_crowded)
-    {
+    if (Sought &sought = block_[place]; !sought.is_found() && !sought.is_crowded)
       sought.is_crowded = is_first = true;
-      sought.radius *= 0.25;
-    }
   if (is_first)
     for (const int place : places)
-      block_[place].n_hits = Sought::sought_again;
-  else if (places.size() == 1)
-    descend(query, block_[places[0]]);
-  else
-  {
-    const std::size_t half = widest_step(places);
-    find_fronts(query, places.first(half));
-    find_fronts(query, places.subspan(half));
-  }
+    {
+      Sought &sought = block_[place];
+      sought.radius *= sought.is_found() ? 1 : 0.25;
+    }
+  if (places.size() == 1 && !is_first)
+    return descend(query, block_[places[0]]);
+  if (is_first)
+    return seek_group(query, places);
+  const std::size_t half = widest_step(places);
+  seek_group(query, places.first(half));
+  seek_group(query, places.subspan(half));
 }
 
 // Where to split nodes that follow one another.
@@ -209,42 +284,24 @@ void TreeSearch<dim>::descend(const Query &query, Sought &sought)
 {
   const auto squared_reach = [&] { return (sought.bound() + faces_.motion()) * (sought.bound() + faces_.motion()); };
   double bound = squared_reach();
-  const Eigen::Vector3d x = point_of(query.x, dim, sought.node);
+  const Index node = nodes_[&sought - block_.data()];
+  const Eigen::Vector3d x = point_of(query.x, dim, node);
   tree_.visit_within(
       sought.x.data(), bound,
       [&](Index slot)
       {
-        if (!query.sees(sought.node, tree_.order()[slot]))
+        if (!query.sees(node, tree_.order()[slot]))
           return;
-        const ClosestPoint closest = closest_point(faces_.face(static_cast<std::uint32_t>(slot)), x);
-        consider(sought, static_cast<std::uint32_t>(slot), closest.xi, closest.squared_distance);
+        const Candidate found = candidate_on(faces_.face(static_cast<std::uint32_t>(slot)), -1, x);
+        consider(sought, static_cast<std::uint32_t>(slot), found.xi, found.squared_distance, found.gap);
         bound = squared_reach();
       },
       [](int, std::size_t) { return true; });
-  sought.n_hits = Sought::all_seen;
+  sought.is_done = true;
 }
 
-template<int dim>
-void TreeSearch<dim>::finish(const Query &query, int place, Candidate &result)
-{
-  const Sought &sought = block_[place];
-  const bool found = sought.face >= 0 && sought.squared_distance <= query.w * query.w;
-  result = {found ? sought.face : -1, sought.xi, sought.squared_distance};
-  near_.set_hint(sought.node, sought.face >= 0 ? static_cast<std::int64_t>(sought.slot) : -1);
-  if (sought.n_hits < 0 || query.exclusions)
-    return near_.forget(sought.node);
-  const double radius = std::min(sought.bound() + sought.margin + faces_.motion(), sought.reach);
-  const auto bound = static_cast<float>(radius * radius);
-  const auto near = hits(place).first(static_cast<std::size_t>(sought.n_hits));
-  const auto is_listed = [bound](const BoxHit &hit) { return hit.squared_distance <= bound; };
-  if (std::count_if(near.begin(), near.end(), is_listed) > most_listed)
-    return near_.forget(sought.node);
-  near_.start(sought.node, sought.x.data(), radius);
-  for (const BoxHit &hit : near)
-    if (is_listed(hit))
-      near_.add(hit.slot, hit.squared_distance);
-}
-
-template void TreeSearch<2>::seek(const Query &, std::span<const Index>, std::span<Candidate>);
-template void TreeSearch<3>::seek(const Query &, std::span<const Index>, std::span<Candidate>);
+template void TreeSearch<2>::expect(const Query &, std::size_t, std::span<const Index>) const;
+template void TreeSearch<3>::expect(const Query &, std::size_t, std::span<const Index>) const;
+template void TreeSearch<2>::seek(const Query &, std::size_t, std::span<const Index>);
+template void TreeSearch<3>::seek(const Query &, std::size_t, std::span<const Index>);
 } // namespace amontons

@@ -55,6 +55,21 @@ AMONTONS_INLINE Real constant(double value)
   return value - Real{}; // the same in all lanes
 }
 
+/// Point of a face; exactly a node there.
+template<int n_nodes, typename Real, int dim>
+AMONTONS_INLINE Vec<Real, dim> point_at(const Vec<Real, dim> *x, const Real &s, const Real &t)
+{
+  if constexpr (n_nodes == 2)
+    return (1.0 - s) * x[0] + s * x[1];
+  else if constexpr (n_nodes == 3)
+    return ((1.0 - s) - t) * x[0] + s * x[1] + t * x[2];
+  else
+  {
+    const Vec<Real, dim> low = (1.0 - s) * x[0] + s * x[1], high = s * x[2] + (1.0 - s) * x[3];
+    return (1.0 - t) * low + t * high;
+  }
+}
+
 /// Parameter in [0, 1] of the point of the segment (a, b) closest to the origin.
 template<typename Real, int dim>
 AMONTONS_INLINE Real on_segment(const Vec<Real, dim> &a, const Vec<Real, dim> &b)
@@ -69,14 +84,14 @@ template<typename Real, int dim>
 AMONTONS_INLINE Closest<Real> closest_on_segment(const Vec<Real, dim> *x)
 {
   const Real s = on_segment(x[0], x[1]);
-  const Vec<Real, dim> point = (1.0 - s) * x[0] + s * x[1]; // exactly a node at the ends
+  const Vec<Real, dim> point = point_at<2>(x, s, s);
   return {s, constant<Real>(0), dot(point, point)};
 }
 
 template<typename Real>
 AMONTONS_INLINE Real triangle_distance2(const Vec<Real, 3> *x, const Real &s, const Real &t)
 {
-  const Vec<Real, 3> point = ((1.0 - s) - t) * x[0] + s * x[1] + t * x[2];
+  const Vec<Real, 3> point = point_at<3>(x, s, t);
   return dot(point, point);
 }
 
@@ -149,8 +164,7 @@ struct Bilinear
 template<typename Real>
 AMONTONS_INLINE Real quadrilateral_distance2(const Vec<Real, 3> *x, const Real &s, const Real &t)
 {
-  const Vec<Real, 3> low = (1.0 - s) * x[0] + s * x[1], high = s * x[2] + (1.0 - s) * x[3];
-  const Vec<Real, 3> point = (1.0 - t) * low + t * high;
+  const Vec<Real, 3> point = point_at<4>(x, s, t);
   return dot(point, point);
 }
 
@@ -231,4 +245,33 @@ AMONTONS_INLINE Closest<Real> closest_on_quadrilateral(const Vec<Real, 3> *x, Ma
   result.squared_distance = quadrilateral_distance2(x, result.s, result.t);
   return result;
 }
+/// Of the origin over the face at (s, t), along the face's outward unit normal there; 0 on a face of no area.
+/// @param point of the face at (s, t)
+template<int n_nodes, typename Real, int dim>
+AMONTONS_INLINE Real gap_at(const Vec<Real, dim> *x, const Vec<Real, dim> &point, const Real &s, const Real &t)
+{
+  Real along, squared_length;
+  if constexpr (n_nodes == 2)
+  {
+    const Vec<Real, dim> a = x[1] - x[0];
+    along = point.c[1] * a.c[0] - point.c[0] * a.c[1];
+    squared_length = dot(a, a);
+  }
+  else
+  {
+    Vec<Real, dim> a = x[1] - x[0], b = x[n_nodes - 1] - x[0];
+    if constexpr (n_nodes == 4)
+    {
+      a = (1.0 - t) * a + t * (x[2] - x[3]);
+      b = (1.0 - s) * b + s * (x[2] - x[1]);
+    }
+    const Vec<Real, dim> normal{
+        {a.c[1] * b.c[2] - a.c[2] * b.c[1], a.c[2] * b.c[0] - a.c[0] * b.c[2], a.c[0] * b.c[1] - a.c[1] * b.c[0]}};
+    along = -dot(point, normal);
+    squared_length = dot(normal, normal);
+  }
+  const Real zero = constant<Real>(0);
+  return squared_length > 0.0 ? along / root(squared_length > 0.0 ? squared_length : zero + 1.0) : zero;
+}
+
 } // namespace amontons::AMONTONS_INSTRUCTION_SET

@@ -10,6 +10,7 @@ struct FaceBatchView
   static constexpr int capacity = 64;
   const double (*corners)[capacity]; ///< [n_nodes * dim], relative to the point
   double *s, *t, *squared_distance;
+  double *gap; ///< null: not asked for
   int n_nodes, n;
 };
 

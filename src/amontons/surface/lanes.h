@@ -82,6 +82,27 @@ AMONTONS_INLINE bool any(bool mask)
   return mask;
 }
 
+/// Square root, correctly rounded everywhere.
+AMONTONS_INLINE double root(double a)
+{
+  return __builtin_sqrt(a);
+}
+AMONTONS_INLINE Lanes root(const Lanes &a)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return reinterpret_cast<Lanes>(_mm512_maskz_sqrt_pd(0xFF, reinterpret_cast<const __m512d &>(a)));
+#elif defined(__AVX__)
+  return reinterpret_cast<Lanes>(_mm256_sqrt_pd(reinterpret_cast<const __m256d &>(a)));
+#elif defined(__SSE2__)
+  return reinterpret_cast<Lanes>(_mm_sqrt_pd(reinterpret_cast<const __m128d &>(a)));
+#else
+  Lanes result = a;
+  for (int i = 0; i < n_lanes; ++i)
+    result[i] = __builtin_sqrt(a[i]);
+  return result;
+#endif
+}
+
 template<typename Real>
 AMONTONS_INLINE Real least(const Real &a, const Real &b)
 {
