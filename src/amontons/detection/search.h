@@ -41,7 +41,8 @@ public:
   /// For each node of the query the face it sees with the closest point within w, face -1 without; equal distances go
   /// to the smaller face id.
   /// @param take called for all of the query's nodes in their order, some at a time; may call minima()
-  /// @param timers the phases "nearest" and, where it is a step of its own, "projection"
+  /// @param timers the phases "nearest" and, where it is a step of its own, "projection"; not the time that `take`
+  /// takes
   virtual void closest(const Target &target, const Query &query, const Taker &take, Timers &timers) = 0;
 
   /// Appends the faces within `radius` of a node, with their closest points, that may be local minima of the distance
