@@ -42,7 +42,7 @@ public:
     return result;
   }
   /// corners() will be asked for.
-  void expect(std::uint32_t slot) const { __builtin_prefetch(&nodes_[slot]); }
+  void expect(std::uint32_t slot) const { __builtin_prefetch(nodes_.data() + slot); }
   void expect_corners(std::uint32_t slot) const
   {
     for (std::size_t k = 0; k < dim; k += dim - 1) // opposite ones: the others are next to them in memory
