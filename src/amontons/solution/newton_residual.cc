@@ -1,5 +1,6 @@
 #include "amontons/base/hash.h"
 #include "amontons/solution/newton_iterate.h"
+#include "amontons/solution/start.h"
 
 namespace amontons
 {
@@ -11,18 +12,10 @@ constexpr double round_off = 1e-13;
 /// Forces that a displacement meets at the nodes' own stiffness: round-off in the internal forces is a part of them.
 double resisted_force(const Model &model, std::span<const double> displacement)
 {
-  double sum = 0;
-  for (const SubdomainMatrix &matrix : model.bodies().subdomains())
-    for (Index row = 0; row < matrix.n_rows(); ++row)
-    {
-      const auto begin = matrix.col.begin() + matrix.row_ptr[row], end = matrix.col.begin() + matrix.row_ptr[row + 1];
-      const auto diagonal = std::lower_bound(begin, end, row) - matrix.col.begin();
-      const auto nodal = static_cast<std::size_t>(matrix.nodes[row / matrix.n_components]) * matrix.n_components +
-                         row % matrix.n_components;
-      sum += std::pow(matrix.values[diagonal] * displacement[nodal], 2);
-    }
-  model.nodes().sum_over_processes({&sum, 1});
-  return std::sqrt(sum);
+  std::vector<double> force = diagonal_stiffness(model);
+  for (std::size_t i = 0; i < force.size(); ++i)
+    force[i] *= displacement[i];
+  return std::sqrt(model.nodes().dot(force, force, model.dim()));
 }
 
 /// Identifies a set of statuses and faces.

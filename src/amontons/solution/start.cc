@@ -49,10 +49,11 @@ std::vector<double> diagonal_stiffness(const Model &model)
   std::vector<double> diagonal(static_cast<std::size_t>(model.n_nodal()), 0.0);
   for (const SubdomainMatrix &matrix : model.bodies().subdomains())
     for (Index row = 0; row < matrix.n_rows(); ++row)
-      for (Index k = matrix.row_ptr[row]; k < matrix.row_ptr[row + 1]; ++k)
-        if (matrix.col[k] == row)
-          diagonal[static_cast<std::size_t>(matrix.nodes[row / matrix.n_components]) * matrix.n_components +
-                   row % matrix.n_components] += matrix.values[k];
+    {
+      const auto begin = matrix.col.begin() + matrix.row_ptr[row], end = matrix.col.begin() + matrix.row_ptr[row + 1];
+      diagonal[static_cast<std::size_t>(matrix.nodes[row / matrix.n_components]) * matrix.n_components +
+               row % matrix.n_components] += matrix.values[std::lower_bound(begin, end, row) - matrix.col.begin()];
+    }
   model.nodes().sum(diagonal, model.dim());
   return diagonal;
 }
