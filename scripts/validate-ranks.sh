@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Solves every example (long ones shortened, increments fixed) on 1, 2, 3 and 4 processes: forces, pressures, radii of contact
-# and of stick must agree to 1e-8, statuses and Newton's iterations be the same. Prints a table; exit code 1 on a difference.
+# and of stick must agree to 1e-8, statuses be the same, and with the direct solver Newton's iterations too (the others solve
+# loosely at first, and how depends on the subdomains). Prints a table; exit code 1 on a difference.
 #   scripts/validate-ranks.sh [EXAMPLE ...]    EXAMPLE as in punch/punch
 #   AMONTONS=path/to/amontons uses that program instead of building one.
 set -euo pipefail
