@@ -73,7 +73,7 @@ def of_radii(a, b):
     figures = {"hertz": lambda nodes: hertz_fit(nodes, 0.1, 0.9)[0], "punch": stick_radius_by_slip}
     for beginning, radius in figures.items():
         for contact in a.increments[-1]["contacts"]:
-            if a.record["deck"].split("/")[-1].startswith(beginning):
+            if Path(a.record["deck"]).parent.name.startswith(beginning):
                 x, y = radius(a.nodes(contact["name"])), radius(b.nodes(contact["name"]))
                 yield "radii", contact["name"], abs(x - y) / abs(x)
 
