@@ -6,18 +6,20 @@ from examples import FINITE_STRAIN, SAME, SMALL_STRAIN, breaches, deck_of, worst
 from results import run, table
 
 PROCESSES = (2, 3, 4)
+# FETI's residual does not come down further on the punch.
+TOLERANCE = {"direct": "1e-11", "amg": "1e-11", "feti": "1e-10"}
 HEAD = ["example", "linear", "processes", "Newton", "linear iterations", *SAME]
 
 
 def solve(program, example, overrides, linear, processes):
     with tempfile.TemporaryDirectory(prefix="amontons-") as folder:
         finished = run(program, deck_of(example),
-                       [*overrides, "loading.fixed=true", f"solver.linear={linear}", "solver.tolerance=1e-11",
+                       [*overrides, "loading.fixed=true", f"solver.linear={linear}", f"solver.tolerance={TOLERANCE[linear]}",
                         "output.every=0"], folder, processes)
+        if not finished.converged:
+            raise RuntimeError(f"{example}, {linear}, {processes} processes: {finished.record['failure']}")
         finished.tables = {c["name"]: finished.nodes(c["name"]) for c in finished.increments[-1]["contacts"]}
     finished.nodes = finished.tables.get
-    if not finished.converged:
-        raise RuntimeError(f"{example}, {linear}, {processes} processes: {finished.record['failure']}")
     return finished
 
 
