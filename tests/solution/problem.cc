@@ -50,6 +50,7 @@ private:
   static SolutionState without_pointers(SolutionState state)
   {
     state.mesh = nullptr;
+    state.nodes = nullptr;
     for (ContactResult &contact : state.contacts)
       contact.impactor = nullptr;
     return state;
@@ -149,12 +150,12 @@ ContactOptions &Problem::contact(const std::string &impactor, const std::string 
   return options.contact.emplace_back(contact);
 }
 
-Record Problem::solve() const
+Record Problem::solve(const Communicator &communicator) const
 {
   Record record;
   Recorder recorder(record);
   const std::array<Observer *, 1> observers{&recorder};
-  record.result = run(options, observers);
+  record.result = run(options, observers, nullptr, communicator);
   return record;
 }
 

@@ -55,7 +55,7 @@ public:
   BoundaryOptions &on(const std::string &region);
   ContactOptions &contact(const std::string &impactor, const std::string &target, double mu = 0);
 
-  [[nodiscard]] Record solve() const;
+  [[nodiscard]] Record solve(const Communicator &communicator = Communicator::alone()) const;
   /// Solves and expects convergence.
   [[nodiscard]] Record converge() const;
 

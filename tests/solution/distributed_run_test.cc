@@ -1,0 +1,179 @@
+// Run on one, two and three processes: whole solutions against those of one process.
+#include "problem.h"
+
+#include <gmock/gmock.h>
+
+namespace amontons::test
+{
+namespace
+{
+const Communicator world(MPI_COMM_WORLD);
+
+struct Solver
+{
+  const char *name;
+  LinearSolverType linear;
+  MultiplierForm form;
+};
+
+void PrintTo(const Solver &solver, std::ostream *out)
+{
+  *out << solver.name;
+}
+
+class DistributedRun : public testing::TestWithParam<Solver>
+{
+protected:
+  /// The same iterations, statuses and, to the solvers' tolerance, forces.
+  static void expect_as_alone(Problem &problem)
+  {
+    problem.options.solver.linear = GetParam().linear;
+    problem.options.solver.multipliers = GetParam().form;
+    problem.options.solver.tolerance = 1e-11;
+    problem.options.loading.fixed = true;
+    const Record alone = problem.solve(), spread = problem.solve(world);
+    ASSERT_TRUE(alone.result.converged) << alone.result.failure;
+    ASSERT_TRUE(spread.result.converged) << spread.result.failure;
+    EXPECT_EQ(spread.n_dofs, alone.n_dofs);
+    EXPECT_EQ(spread.iterations(), alone.iterations());
+    ASSERT_EQ(spread.states.size(), alone.states.size());
+    for (std::size_t s = 0; s < alone.states.size(); ++s)
+      for (std::size_t c = 0; c < alone.states[s].contacts.size(); ++c)
+      {
+        const ContactResult &one = alone.states[s].contacts[c], &all = spread.states[s].contacts[c];
+        EXPECT_EQ(all.status, one.status);
+        expect_near(all.force, one.force);
+        expect_near(all.slip, one.slip);
+      }
+    for (std::size_t r = 0; r < alone.state().reactions.size(); ++r)
+    {
+      const Reaction &one = alone.state().reactions[r], &all = spread.state().reactions[r];
+      EXPECT_EQ(all.region, one.region);
+      expect_near(all.force, one.force);
+    }
+    expect_same_displacements(alone, spread);
+  }
+
+  static void expect_near(std::span<const double> all, std::span<const double> one)
+  {
+    double size = 1e-12;
+    for (const double x : one)
+      size = std::max(size, std::abs(x));
+    ASSERT_EQ(all.size(), one.size());
+    for (std::size_t i = 0; i < one.size(); ++i)
+      EXPECT_NEAR(all[i], one[i], 1e-8 * size);
+  }
+
+  static void expect_same_displacements(const Record &alone, const Record &spread)
+  {
+    const auto dim = static_cast<std::size_t>(alone.mesh.dim);
+    std::vector<double> expected;
+    for (const GlobalIndex node : spread.mesh.node_ids)
+      for (std::size_t c = 0; c < dim; ++c)
+        expected.push_back(alone.state().displacement[static_cast<std::size_t>(node) * dim + c]);
+    expect_near(spread.state().displacement, expected);
+  }
+};
+
+/// Pressed, then dragged until a part of the nodes slides.
+Problem dragged_block()
+{
+  Blocks mesh(3);
+  mesh.add("lower", {0, 0, 0}, {2, 2, 1}, {5, 4, 3});
+  mesh.add("upper", {0.3, 0.2, 1}, {1, 1.2, 1}, {3, 4, 3},
+           [](const Point &x) { return Point(x[0], x[1], x[2] + 0.02 * (x[0] - 0.8) * (x[0] - 0.8)); });
+  Problem problem(mesh, Kinematics::three_dimensional);
+  problem.elastic("lower", 10);
+  problem.elastic("upper", 3, 0.2);
+  problem.on("lower_bottom").fix = {0, 1, 2};
+  problem.on("upper_top").displacement = {
+      {0, expression("0.03 * t")}, {1, expression(0)}, {2, expression("-0.03 * t")}};
+  problem.contact("upper_bottom", "lower_top", 0.3);
+  problem.options.loading.increments = 3;
+  return problem;
+}
+
+TEST_P(DistributedRun, BlockDraggedWithFriction)
+{
+  Problem problem = dragged_block();
+  expect_as_alone(problem);
+}
+
+TEST_P(DistributedRun, BodiesHeldByContactAlone)
+{
+  // The middle block lies between the others; the uppermost is rigid and loaded by a force.
+  Blocks mesh(3);
+  mesh.add("lower", {0, 0, 0}, {2, 2, 1}, {4, 4, 2});
+  mesh.add("middle", {0.3, 0.3, 1}, {1, 1, 0.6}, {3, 3, 3});
+  mesh.add("upper", {0.2, 0.2, 1.6}, {1.2, 1.2, 0.3}, {1, 1, 1});
+  Problem problem(mesh, Kinematics::three_dimensional);
+  problem.elastic("lower", 10);
+  problem.elastic("middle", 3, 0.2);
+  problem.rigid("upper");
+  problem.on("lower_bottom").fix = {0, 1, 2};
+  problem.on("upper").force[2] = expression("-0.1 * t");
+  problem.contact("middle_bottom", "lower_top", 0.3);
+  problem.contact("middle_top", "upper_bottom", 0.3);
+  problem.options.loading.increments = 2;
+  expect_as_alone(problem);
+}
+
+TEST_P(DistributedRun, PlasticBlockUnderAShape)
+{
+  Blocks mesh(2);
+  mesh.add("block", {-1, -1, 0}, {2, 1, 0}, {12, 6, 0});
+  Problem problem(mesh, Kinematics::plane_strain);
+  BodyOptions &block = problem.elastic("block", 100);
+  block.material.law = MaterialLaw::von_mises;
+  block.material.yield_stress = 1;
+  Shape shape = ground(2);
+  shape.type = ShapeType::circle;
+  shape.radius = 1;
+  shape.point = {0.1, 1, 0};
+  problem.rigid("roller", shape);
+  problem.on("block_bottom").fix = {0, 1};
+  problem.on("roller").displacement = {{0, expression("0.02 * t")}, {1, expression("-0.05 * t")}};
+  problem.contact("block_top", "roller", 0.2);
+  problem.options.loading.increments = 4;
+  if (GetParam().linear == LinearSolverType::feti)
+    GTEST_SKIP() << "in the plane subdomains of this size are one";
+  expect_as_alone(problem);
+}
+
+TEST_P(DistributedRun, FiniteStrainFromFaceToFace)
+{
+  if (GetParam().linear == LinearSolverType::feti)
+    GTEST_SKIP() << "feti is for small strain";
+  Blocks mesh(2);
+  mesh.add("lower", {-1, -1, 0}, {3, 1, 0}, {15, 5, 0});
+  mesh.add("upper", {-0.5, 0.01, 0}, {1, 0.7, 0}, {6, 4, 0});
+  Problem problem(mesh, Kinematics::plane_strain, Strain::finite);
+  problem.elastic("lower", 1);
+  problem.elastic("upper", 2, 0.2);
+  problem.on("lower_bottom").fix = {0, 1};
+  problem.on("upper_top").displacement = {{0, expression("0.4 * t")}, {1, expression("-0.1 * min(4*t, 1)")}};
+  problem.contact("upper_bottom", "lower_top", 0.3);
+  problem.options.loading.increments = 8;
+  expect_as_alone(problem);
+}
+
+TEST_P(DistributedRun, WhatNobodyHoldsIsSaidByAll)
+{
+  Problem problem = dragged_block();
+  problem.options.boundary.erase(problem.options.boundary.begin());
+  problem.on("lower_bottom").traction[0] = expression(1);
+  problem.options.solver.linear = GetParam().linear;
+  problem.options.solver.multipliers = GetParam().form;
+  const Record spread = problem.solve(world);
+  EXPECT_FALSE(spread.result.converged);
+  EXPECT_THAT(spread.failure, testing::HasSubstr("body 'lower' moves freely"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, DistributedRun,
+                         testing::Values(Solver{"coupled", LinearSolverType::direct, MultiplierForm::coupled},
+                                         Solver{"direct", LinearSolverType::direct, MultiplierForm::condensed},
+                                         Solver{"amg", LinearSolverType::amg, MultiplierForm::condensed},
+                                         Solver{"feti", LinearSolverType::feti, MultiplierForm::condensed}),
+                         [](const auto &info) { return std::string(info.param.name); });
+} // namespace
+} // namespace amontons::test
