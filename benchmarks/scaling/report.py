@@ -3,6 +3,7 @@
 import json
 import pathlib
 import re
+import statistics
 import sys
 
 PAGE = pathlib.Path(__file__).parents[2] / "docs" / "performance" / "scaling.md"
@@ -22,7 +23,7 @@ def most_over_mean(figure):
 
 
 def chosen(results, **wanted):
-    return [r for r in results if all(r[key] == value for key, value in wanted.items())]
+    return [r for r in results if all(r.get(key) == value for key, value in wanted.items())]
 
 
 def falls(results):
@@ -90,7 +91,7 @@ def grows(results):
 
 def same(results):
     rows = []
-    for n_processes in sorted({r["processes"] for r in results}):
+    for n_processes in sorted({r["processes"] for r in results if "detections" in r}):
         for mode in ("distributed", "gathered"):
             found = chosen(results, processes=n_processes, mode=mode)
             detections = [(r, d) for r in found for d in r["detections"]]
@@ -101,10 +102,53 @@ def same(results):
     return table(["processes", "mode", "surfaces", "detections", "nodes compared", "that differ in any bit"], rows)
 
 
+def one_decomposition(results):
+    found = chosen(results, part="one_decomposition")
+    reference = chosen(found, solver="direct")[0]
+
+    def difference(row):
+        size = max(abs(f) for f in reference["normal_force"])
+        return max(abs(a - b) for kind in ("normal_force", "tangential_force")
+                   for a, b in zip(row[kind], reference[kind])) / size
+    return table(["solver", "processes", "unknowns", "Newton", "linear iterations", "force off direct's",
+                  "MB, most", "messages of a process", "MB sent, most"],
+                 [[r["solver"], str(r["processes"]), spaced(r["n_dofs"]), str(r["newton_iterations"]),
+                   str(r["linear_iterations"]), f"{difference(r):.0e}", *shares_of(r)] for r in found])
+
+
+def shares_of(row):
+    """Greatest memory, messages and megabytes sent of a process, from the record."""
+    over = row.get("over_processes") or {}
+    traffic = over.get("traffic", {}).values()
+    return [spaced(over.get("peak_rss_mb", {}).get("max", row["peak_rss_mb"])),
+            spaced(sum(t["messages"]["max"] for t in traffic)),
+            f"{sum(t['bytes']['max'] for t in traffic) / 1e6:.1f}"]
+
+
+def growing(results):
+    return table(["processes", "unknowns", "Newton", "linear iterations", "MB, most", "messages of a process", "MB sent, most"],
+                 [[str(r["processes"]), spaced(r["n_dofs"]), str(r["newton_iterations"]), str(r["linear_iterations"]),
+                   *shares_of(r)] for r in chosen(results, part="growing")])
+
+
+def speed_up(results):
+    found = chosen(results, part="speed_up")
+    median = {(runs, processes): {key: statistics.median(r[key] for r in chosen(found, n_runs=runs, processes=processes))
+                                  for key in ("seconds", "solution_s")}
+              for runs, processes in ((1, 1), (1, 2), (2, 1))}
+    rows = []
+    for key, what in (("seconds", "whole run"), ("solution_s", "solution alone")):
+        one, two, beside = (median[case][key] for case in ((1, 1), (1, 2), (2, 1)))
+        rows.append([what, f"{one:.1f}", f"{two:.1f}", f"{one / two:.2f}", f"{beside:.1f}", f"{2 * one / beside:.2f}",
+                     f"{beside / 2 / two:.2f}"])
+    return table(["", "one process, s", "two processes, s", "speed-up", "two runs of one side by side, s",
+                  "the machine's ceiling", "of that ceiling"], rows)
+
+
 def main():
     results = json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))
     text = PAGE.read_text(encoding="utf-8")
-    for make in (falls, gathered, surfaces, grows, same):
+    for make in (falls, gathered, surfaces, grows, same, one_decomposition, growing, speed_up):
         begin, end = f"<!-- {make.__name__} -->", f"<!-- end of {make.__name__} -->"
         if begin not in text or end not in text:
             sys.exit(f"{PAGE}: no {begin} ... {end}")

@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
-"""Runs the benchmark of detection over many processes, writes one list of all results.   run.py PROGRAM [--quick] --json FILE
+"""Runs the benchmarks over many processes, writes one list of all results.   run.py PROGRAM [--quick] --json FILE
 
 Beyond the cores processes share them: work, messages and bytes are counted there, not seconds."""
 import argparse
 import json
 import math
 import os
+import pathlib
 import subprocess
+import tempfile
 import time
 
+import solution
+
 PROCESSES = [1, 2, 4, 8, 16]
-ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1",
-               "OMPI_MCA_mpi_yield_when_idle": "1"}
 
 
 def same_everywhere(quick):
@@ -43,27 +45,44 @@ def measure(program, n_processes, surface, shape, n_nodes, mode, spread, distanc
     if distance:
         command += ["--distance", str(distance)]
     return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True,
-                                     env={**os.environ, **ENVIRONMENT}).stdout)
+                                     env={**os.environ, **solution.ENVIRONMENT}).stdout)
+
+
+def detections(program, part, quick):
+    for configuration in part(quick):
+        found = measure(program, *configuration)
+        wrong = sum(detection["wrong"] for result in found for detection in result["detections"])
+        yield f"{configuration}: {wrong} wrong", [{**result, "part": part.__name__} for result in found]
+
+
+def solutions(program, part, quick):
+    amontons = pathlib.Path(program).resolve().parents[1] / "app" / "amontons"
+    with tempfile.TemporaryDirectory() as work:
+        for row in part(amontons, pathlib.Path(work), quick):
+            yield (f"{row['n_dofs']} unknowns, {row['solver']}, {row['processes']} processes: "
+                   f"{row['newton_iterations']} Newton, {row['linear_iterations']} linear iterations"), [row]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program")
     parser.add_argument("--quick", action="store_true", help="fewer processes and smaller surfaces")
-    parser.add_argument("--only", choices=["what_falls", "same_everywhere"], help="one part of it")
+    parts = {part.__name__: (how, part)
+             for how, members in ((detections, (what_falls, same_everywhere)),
+                                  (solutions, (solution.one_decomposition, solution.growing, solution.speed_up)))
+             for part in members}
+    parser.add_argument("--only", choices=list(parts), help="one part of it")
     parser.add_argument("--json", required=True, help="where to write the results")
     options = parser.parse_args()
     results, start = [], time.time()
-    for part in (what_falls, same_everywhere):
-        if options.only not in (None, part.__name__):
+    for name, (how, part) in parts.items():
+        if options.only not in (None, name):
             continue
-        for configuration in part(options.quick):
-            found = measure(options.program, *configuration)
-            results += [{**result, "part": part.__name__} for result in found]
+        for text, found in how(options.program, part, options.quick):
+            results += found
             with open(options.json, "w", encoding="utf-8") as file:  # what there is so far
                 json.dump(results, file, indent=1)
-            wrong = sum(detection["wrong"] for result in found for detection in result["detections"])
-            print(f"{time.time() - start:6.0f} s  {configuration}: {wrong} wrong", flush=True)
+            print(f"{time.time() - start:6.0f} s  {text}", flush=True)
 
 
 if __name__ == "__main__":

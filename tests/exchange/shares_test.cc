@@ -158,6 +158,25 @@ TEST_F(Shares, ErrorOfOneIsErrorOfAll)
   }
 }
 
+TEST_F(Shares, SelfContactNeedsTheReference)
+{
+  for (const ExchangeMode mode : {ExchangeMode::distributed, ExchangeMode::gathered})
+  {
+    Wrong one_side(world_);
+    Surface &surface = one_side.impactor.surface;
+    const std::vector<double> x = surface.reference;
+    if (one_side.is_last)
+      surface.reference.clear();
+    const auto parallel =
+        make_parallel_detector(world_, {mode}, {{&surface, one_side.impactor.n_own, nullptr, {}, 0.5}});
+    EXPECT_THAT(
+        [&] {
+          parallel->detect(std::vector<SharePositions>{{x, {}, 0.1}});
+        },
+        ThrowsMessage<UserError>(HasSubstr("self-contact needs the reference coordinates")));
+  }
+}
+
 TEST_F(Shares, DetectAgainAfterAnError)
 {
   Wrong good(world_);

@@ -93,11 +93,12 @@ TEST(GridCut, BlocksOfEqualVolumeWithALayer)
       const Place x{8 * uniform(random), 4 * uniform(random), 0.5 * uniform(random)};
       const Rank part = grid.part_of(x);
       ++n.at(part);
-      // Anything within w of a node lies in the blocks its part is sent.
-      Box near;
-      near.include(x);
-      EXPECT_TRUE(grid.grown_blocks()[part].meets(near.grown(0.25), 0));
-      EXPECT_TRUE(grid.grown_blocks()[part].holds({x[0] - 0.25, x[1] + 0.25, x[2] - 0.25}, 1e-12));
+      // Anything within w of a node lies in the blocks its part is sent: every corner of the cube about it.
+      for (int corner = 0; corner < 8; ++corner)
+        EXPECT_TRUE(
+            grid.grown_blocks()[part].holds({x[0] + (corner & 1 ? 0.25 : -0.25), x[1] + (corner & 2 ? 0.25 : -0.25),
+                                             x[2] + (corner & 4 ? 0.25 : -0.25)},
+                                            1e-12));
     }
     if (n_parts <= 16)
       for (const int own : n)

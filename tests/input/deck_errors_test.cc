@@ -162,6 +162,13 @@ const BadDeck conflicts[]{
      "deck.yaml:19:15: boundary.1.pressure: cannot act on the rigid body 'punch'; give its force or its displacement"},
     {"TractionOnWholeBody", "region: block_bottom\n    fix: [x, y]", "region: block\n    traction: {x: 1}",
      "deck.yaml:17:15: boundary.0.traction: acts on a group of faces or points, and 'block' is the cells of a body"},
+    {"MortarNormals", "    friction:", "    discretization: mortar\n    normals: smoothed\n    friction:",
+     "deck.yaml:15:14: contact.0.normals: is for discretization: node-to-face; mortar takes the mean normal at each "
+     "node"},
+    {"MortarMethod", "    friction: {law: coulomb, coefficient: 0.2}",
+     "    discretization: mortar\ndetection: {method: exact}",
+     "deck.yaml:15:21: detection.method: is for discretization: node-to-face; mortar finds all faces that lie over "
+     "each other within the distance"},
     {"ElasticInFiniteStrain", "loading", "strain: finite\nloading",
      "deck.yaml:6:21: bodies.0.material.law: linear-elastic holds in strain: small only; use neo-hookean with strain: "
      "finite"},

@@ -81,7 +81,6 @@ Bytes packed(const MeshPart &part)
     writer.add_array(group.other_nodes);
   }
   writer.add_array(part.subdomain_of_cell);
-  writer.add_array(part.subdomain_ids);
   writer.add(static_cast<Index>(part.surfaces.size()));
   for (const Surface &surface : part.surfaces)
     add(writer, surface);
@@ -112,7 +111,6 @@ MeshPart unpacked(std::span<const std::byte> bytes)
     group.other_nodes = reader.get_array<Index>();
   }
   part.subdomain_of_cell = reader.get_array<Index>();
-  part.subdomain_ids = reader.get_array<GlobalIndex>();
   for (auto n_surfaces = reader.get<Index>(); n_surfaces > 0; --n_surfaces)
     part.surfaces.push_back(get_surface(reader));
   return part;
@@ -278,15 +276,10 @@ private:
   void take_subdomains(Rank rank, MeshPart &out) const
   {
     if (whole_.subdomain_of_cell.empty())
-    {
-      out.subdomain_ids.assign(1, rank);
       return;
-    }
-    std::vector<GlobalIndex> &ids = out.subdomain_ids;
-    ids.clear();
     for (const Index cell : cells_[rank])
-      ids.push_back(whole_.subdomain_of_cell[cell]);
-    out.subdomain_of_cell.assign(ids.begin(), ids.end());
+      out.subdomain_of_cell.push_back(whole_.subdomain_of_cell[cell]);
+    std::vector<Index> ids = out.subdomain_of_cell;
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     for (Index &subdomain : out.subdomain_of_cell)

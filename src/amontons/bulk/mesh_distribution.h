@@ -17,7 +17,6 @@ struct MeshPart
 {
   Mesh mesh;
   std::vector<Index> subdomain_of_cell;      ///< [n_cells], 0 .. n-1; empty: one subdomain
-  std::vector<GlobalIndex> subdomain_ids{0}; ///< by increasing number among those of all processes
   std::vector<Surface> surfaces;             ///< contact surfaces, whole; node_ids are positions in `mesh`
 };
 

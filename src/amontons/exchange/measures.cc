@@ -51,6 +51,9 @@ Measures measure(const ContactShare &share, const SharePositions &positions)
   AMONTONS_ASSERT(share.n_own >= 0 && share.n_own <= share.impactor->n_nodes());
   AMONTONS_ASSERT(positions.impactor.size() == share.impactor->node_ids.size() * dim);
   AMONTONS_ASSERT(target_x.size() == target.node_ids.size() * dim);
+  if (!share.target && share.impactor->reference.size() != share.impactor->node_ids.size() * dim)
+    throw UserError("contact detection: self-contact needs the reference coordinates of the surface's nodes, " +
+                    std::to_string(dim) + " to each");
   Measures result;
   result.impactor = box_of_all(positions.impactor, dim, share.n_own);
   result.target = box_of_all(target_x, dim, target.n_nodes());

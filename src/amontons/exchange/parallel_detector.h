@@ -68,8 +68,7 @@ public:
   /// @param positions one entry per contact @return one entry per contact
   /// Collective.
   /// @throws on all processes: what Detector throws, UserError where the shares are not as ContactShare asks (a face
-  /// given
-  ///         twice, a node owned twice or at two places)
+  /// given twice, a node owned twice or at two places, self-contact without reference coordinates)
   virtual const std::vector<MetPairing> &detect(std::span<const SharePositions> positions) = 0;
 
   /// Of the last detect(). Local.

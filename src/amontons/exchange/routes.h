@@ -25,9 +25,8 @@ PartRegions regions_of(const ContactShare &share, const SharePositions &position
 ///
 /// - of the impactor its own nodes, with the faces attached to them (they tell where the node's own side is);
 /// - of the target the faces that may come within the layer of one of them: those whose box is that near to the box of
-/// the
-///   part's nodes. All faces that meet at a closest point are among them, so ends, edges and vertices are what they
-///   are.
+///   the part's nodes. All faces that meet at a closest point are among them, so ends, edges and vertices are what
+///   they are.
 /// - In self-contact also the faces that may lie within the self-distance of its nodes in the reference: the ways along
 ///   the surface that decide what a node does not see run through no other.
 struct ContactRoutes

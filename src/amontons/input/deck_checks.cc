@@ -61,6 +61,22 @@ const BodyOptions *analytic_body(const Deck &deck, const std::string &name)
   return nullptr;
 }
 
+/// Keys that mean something at nodes against faces only.
+void check_mortar(const Value &root, const Deck &deck)
+{
+  const auto is_mortar = [](const ContactOptions &c) { return c.discretization == Discretization::mortar; };
+  for (std::size_t i = 0; i < deck.contact.size(); ++i)
+    if (const Value *normals = item(root, "contact", i).find("normals"); normals && is_mortar(deck.contact[i]))
+      normals->fail("is for discretization: node-to-face; mortar takes the mean normal at each node");
+  const Value *detection = root.find("detection");
+  if (!detection || deck.contact.empty() || !std::all_of(deck.contact.begin(), deck.contact.end(), is_mortar))
+    return;
+  for (const char *key : {"method", "extension"})
+    if (const Value *value = detection->find(key))
+      value->fail("is for discretization: node-to-face; mortar finds all faces that lie over each other within the "
+                  "distance");
+}
+
 void check_contacts(const Value &root, const Deck &deck)
 {
   check_unique(root, "contact", "name");
@@ -90,6 +106,7 @@ void check_deck(const Value &root, const Deck &deck)
 {
   check_bodies(root, deck);
   check_contacts(root, deck);
+  check_mortar(root, deck);
   check_boundary(root, deck);
 }
 } // namespace amontons

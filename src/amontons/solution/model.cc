@@ -72,11 +72,6 @@ void Model::read_part()
   if (!messages_ || messages_->communicator().size() == 1)
   {
     read();
-    Index n = 1;
-    for (const Index subdomain : part_.subdomain_of_cell)
-      n = std::max(n, subdomain + 1);
-    part_.subdomain_ids.resize(static_cast<std::size_t>(n));
-    std::iota(part_.subdomain_ids.begin(), part_.subdomain_ids.end(), 0);
     return;
   }
   const Communicator &all = messages_->communicator();

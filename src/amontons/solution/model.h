@@ -28,8 +28,6 @@ public:
 
   [[nodiscard]] const ProblemOptions &options() const { return options_; }
   [[nodiscard]] const Mesh &mesh() const { return part_.mesh; }
-  /// Of the subdomains that this process has.
-  [[nodiscard]] std::span<const GlobalIndex> subdomain_ids() const { return part_.subdomain_ids; }
   /// Of nodes: those of the mesh, then the points of analytic bodies. A nodal vector of forces of bodies is a sum over
   /// the processes; everything else nodal is the same on all copies.
   [[nodiscard]] const Sharing &nodes() const { return nodes_; }
