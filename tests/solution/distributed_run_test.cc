@@ -56,7 +56,7 @@ protected:
 
   static void expect_near(std::span<const double> all, std::span<const double> one)
   {
-    double size = 1e-12;
+    double size = 1e-6; // of forces and displacements of 1e-3 to 1
     for (const double x : one)
       size = std::max(size, std::abs(x));
     ASSERT_EQ(all.size(), one.size());
@@ -79,8 +79,8 @@ protected:
 Problem dragged_block()
 {
   Blocks mesh(3);
-  mesh.add("lower", {0, 0, 0}, {2, 2, 1}, {5, 4, 3});
-  mesh.add("upper", {0.3, 0.2, 1}, {1, 1.2, 1}, {3, 4, 3},
+  mesh.add("lower", {0, 0, 0}, {2, 2, 1}, {8, 8, 4}); // three subdomains with the other block
+  mesh.add("upper", {0.3, 0.2, 1}, {1, 1.2, 1}, {4, 5, 4},
            [](const Point &x) { return Point(x[0], x[1], x[2] + 0.02 * (x[0] - 0.8) * (x[0] - 0.8)); });
   Problem problem(mesh, Kinematics::three_dimensional);
   problem.elastic("lower", 10);
