@@ -16,8 +16,8 @@ namespace amontons
 struct MeshPart
 {
   Mesh mesh;
-  std::vector<Index> subdomain_of_cell;      ///< [n_cells], 0 .. n-1; empty: one subdomain
-  std::vector<Surface> surfaces;             ///< contact surfaces, whole; node_ids are positions in `mesh`
+  std::vector<Index> subdomain_of_cell; ///< [n_cells], 0 .. n-1; empty: one subdomain
+  std::vector<Surface> surfaces;        ///< contact surfaces, whole; node_ids are positions in `mesh`
 };
 
 /// Which process shall have each cell: subdomains (cells, where there are none) in connected lumps of about equal
