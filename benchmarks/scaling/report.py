@@ -118,10 +118,8 @@ def one_decomposition(results):
 
 def shares_of(row):
     """Greatest memory, messages and megabytes sent of a process, from the record."""
-    over = row.get("over_processes") or {}
-    traffic = over.get("traffic", {}).values()
-    return [spaced(over.get("peak_rss_mb", {}).get("max", row["peak_rss_mb"])),
-            spaced(sum(t["messages"]["max"] for t in traffic)),
+    traffic = row["of_processes"].get("traffic", {}).values()
+    return [spaced(row["peak_rss_mb"]), spaced(sum(t["messages"]["max"] for t in traffic)),
             f"{sum(t['bytes']['max'] for t in traffic) / 1e6:.1f}"]
 
 

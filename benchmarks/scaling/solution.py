@@ -46,13 +46,12 @@ def finish(process, results):
 
 def row(part, record, n_processes, **known):
     totals = record["totals"]
-    contact = list(record["increments"][-1]["contacts"].values()) if isinstance(
-        record["increments"][-1]["contacts"], dict) else record["increments"][-1]["contacts"]
+    contact = record["increments"][-1]["contacts"][0]
     return {"part": part, "processes": n_processes, "n_dofs": record["n_dofs"], **known,
             "newton_iterations": totals["n_newton_iterations"], "linear_iterations": totals["n_linear_iterations"],
-            "normal_force": contact[0]["normal_force"], "tangential_force": contact[0]["tangential_force"],
+            "normal_force": contact["normal_force"], "tangential_force": contact["tangential_force"],
             "timings": totals["timings"], "wall_s": totals["wall_s"], "peak_rss_mb": totals["peak_rss_mb"],
-            "over_processes": record.get("over_processes")}
+            "of_processes": totals.get("processes", {})}
 
 
 def one_decomposition(program, work, quick):
