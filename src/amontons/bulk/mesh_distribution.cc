@@ -124,6 +124,7 @@ public:
          std::span<const Index> everywhere, int n_processes)
     : whole_(whole)
     , mesh_(whole.mesh)
+    , is_rigid_(is_rigid)
     , cells_(static_cast<std::size_t>(n_processes))
     , is_everywhere_(static_cast<std::size_t>(mesh_.n_nodes()), 0)
     , position_(static_cast<std::size_t>(mesh_.n_nodes()), -1)
@@ -136,7 +137,7 @@ public:
     for (const Surface &surface : whole.surfaces)
       for (const GlobalIndex node : surface.node_ids)
         is_everywhere_[node] = 1;
-    find_cells_of_nodes(is_rigid);
+    find_cells_of_nodes();
     for (const auto &[name, group] : mesh_.groups)
       place_group(name, group, process_of_cell);
   }
@@ -168,7 +169,7 @@ public:
 
 private:
   /// Deformable cells of the nodes of groups of lower dimension.
-  void find_cells_of_nodes(const std::vector<bool> &is_rigid)
+  void find_cells_of_nodes()
   {
     std::vector<char> wanted(position_.size(), 0);
     for (const auto &[name, group] : mesh_.groups)
@@ -176,7 +177,7 @@ private:
         for (const Index node : group.entities.nodes)
           wanted[node] = 1;
     for (Index cell = 0; cell < mesh_.cells.size(); ++cell)
-      if (!is_rigid[cell])
+      if (!is_rigid_[cell])
         for (const Index node : mesh_.cells[cell])
           if (wanted[node])
             cells_of_node_[node].push_back(cell);
@@ -277,17 +278,22 @@ private:
   {
     if (whole_.subdomain_of_cell.empty())
       return;
+    std::vector<Index> ids;
     for (const Index cell : cells_[rank])
-      out.subdomain_of_cell.push_back(whole_.subdomain_of_cell[cell]);
-    std::vector<Index> ids = out.subdomain_of_cell;
+      if (!is_rigid_[cell])
+        ids.push_back(whole_.subdomain_of_cell[cell]);
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-    for (Index &subdomain : out.subdomain_of_cell)
-      subdomain = static_cast<Index>(std::lower_bound(ids.begin(), ids.end(), subdomain) - ids.begin());
+    for (const Index cell : cells_[rank])
+    {
+      const auto place = std::lower_bound(ids.begin(), ids.end(), whole_.subdomain_of_cell[cell]) - ids.begin();
+      out.subdomain_of_cell.push_back(is_rigid_[cell] ? 0 : static_cast<Index>(place)); // rigid ones count for none
+    }
   }
 
   const MeshPart &whole_;
   const Mesh &mesh_;
+  const std::vector<bool> &is_rigid_;
   std::vector<std::vector<Index>> cells_; ///< by process
   std::vector<char> is_everywhere_;
   std::map<Index, std::vector<Index>> cells_of_node_;
