@@ -21,6 +21,11 @@ void PrintTo(const Solver &solver, std::ostream *out)
   *out << solver.name;
 }
 
+MATCHER_P(IsWithin, difference, "")
+{
+  return std::abs(std::get<0>(arg) - std::get<1>(arg)) <= difference;
+}
+
 class DistributedRun : public testing::TestWithParam<Solver>
 {
 protected:
@@ -35,7 +40,10 @@ protected:
     ASSERT_TRUE(alone.result.converged) << alone.result.failure;
     ASSERT_TRUE(spread.result.converged) << spread.result.failure;
     EXPECT_EQ(spread.n_dofs, alone.n_dofs);
-    EXPECT_EQ(spread.iterations(), alone.iterations());
+    // What an iteration leaves of its linear system, within its tolerance, hangs on the processes: multigrid's levels
+    // do.
+    const int allowed = GetParam().linear == LinearSolverType::direct ? 0 : 1;
+    EXPECT_THAT(spread.iterations(), testing::Pointwise(IsWithin(allowed), alone.iterations()));
     ASSERT_EQ(spread.states.size(), alone.states.size());
     for (std::size_t s = 0; s < alone.states.size(); ++s)
       for (std::size_t c = 0; c < alone.states[s].contacts.size(); ++c)
@@ -56,7 +64,7 @@ protected:
 
   static void expect_near(std::span<const double> all, std::span<const double> one)
   {
-    double size = 1e-6; // of forces and displacements of 1e-3 to 1
+    double size = 1e-4; // of forces, displacements and slips of 1e-3 to 1
     for (const double x : one)
       size = std::max(size, std::abs(x));
     ASSERT_EQ(all.size(), one.size());
