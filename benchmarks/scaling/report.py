@@ -146,7 +146,10 @@ def speed_up(results):
 def main():
     results = json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))
     text = PAGE.read_text(encoding="utf-8")
-    for make in (falls, gathered, surfaces, grows, same, one_decomposition, growing, speed_up):
+    measured = {r["part"] for r in results}
+    of_detection = (falls, gathered, surfaces, grows, same) if "what_falls" in measured else ()
+    of_solution = [make for make in (one_decomposition, growing, speed_up) if make.__name__ in measured]
+    for make in (*of_detection, *of_solution):
         begin, end = f"<!-- {make.__name__} -->", f"<!-- end of {make.__name__} -->"
         if begin not in text or end not in text:
             sys.exit(f"{PAGE}: no {begin} ... {end}")

@@ -22,12 +22,13 @@ public:
   {
     ksp_.reset();
     matrix_ = PetscMatrix(matrix, blocks);
+    is_first_ = blocks.rank() == 0;
     ++n_pattern_builds_;
   }
 
   void factorize() override
   {
-    ++n_factorizations_;
+    n_factorizations_ += is_first_ ? 1 : 0; // one for all processes
     matrix_.values_changed();
     const bool symmetric = matrix_.is_symmetric();
     if (!ksp_ || symmetric != symmetric_)
@@ -131,6 +132,7 @@ private:
 
   PetscMatrix matrix_;
   KspHandle ksp_;
+  bool is_first_ = true;
   bool symmetric_ = false;
   PetscInt n_null_pivots_ = 0, workspace_ = least_workspace;
   std::int64_t n_factorizations_ = 0, n_pattern_builds_ = 0, n_iterations_ = 0;

@@ -9,8 +9,7 @@ namespace amontons
 {
 namespace
 {
-/// Directions kept, in bytes of p and q together; at least so many.
-constexpr std::size_t max_bytes = std::size_t{1} << 29;
+/// Directions kept in any case.
 constexpr std::size_t least_kept = 40;
 /// An image that loses all but this share of its length when the others are taken out is dependent on them.
 constexpr double least_share = 1e-10;
@@ -23,10 +22,12 @@ void add_multiple(double factor, std::span<const double> a, std::span<double> b)
 }
 } // namespace
 
-void FetiDirections::start(std::size_t first_own, std::size_t n_own, const Sharing &processes)
+void FetiDirections::start(std::size_t length, std::size_t first_own, std::size_t n_own, const Sharing &processes)
 {
   p_.clear();
   q_.clear();
+  const auto longest = static_cast<std::size_t>(processes.maximum_over_processes(static_cast<double>(length)));
+  max_kept_ = std::max(least_kept, max_bytes_ / (2 * sizeof(double) * std::max<std::size_t>(longest, 1)));
   first_own_ = first_own;
   n_own_ = n_own;
   processes_ = &processes;
@@ -97,7 +98,7 @@ bool FetiDirections::add(std::vector<double> p, std::vector<double> q, std::span
     return false;
   for (std::vector<double> *v : {&p, &q})
     cblas_dscal(static_cast<int>(v->size()), 1 / left, v->data(), 1);
-  if (p_.size() >= least_kept && (p_.size() + 1) * 2 * p.size() * sizeof(double) > max_bytes)
+  if (p_.size() >= max_kept_)
   {
     p_.erase(p_.begin());
     q_.erase(q_.begin());

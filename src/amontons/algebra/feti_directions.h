@@ -15,8 +15,15 @@ namespace amontons
 class FetiDirections
 {
 public:
-  /// Forgets all directions. @param first_own entries from here on are own, [0, n_own) of them
-  void start(std::size_t first_own, std::size_t n_own, const Sharing &processes);
+  /// @param max_bytes of p and q together, beyond which the oldest direction gives way; a few dozen are kept anyway
+  explicit FetiDirections(std::size_t max_bytes = std::size_t{1} << 29)
+    : max_bytes_(max_bytes)
+  {
+  }
+
+  /// Forgets all directions. Collective. @param length of the vectors to come
+  /// @param first_own entries from here on are own, [0, n_own) of them
+  void start(std::size_t length, std::size_t first_own, std::size_t n_own, const Sharing &processes);
   /// x += sum (q . r) p and r -= sum (q . r) q, over all directions. Collective.
   void project(std::span<double> x, std::span<double> r) const;
   /// Takes a direction and makes a step along it. The oldest gives way when there are too many. Collective.
@@ -30,6 +37,8 @@ private:
   double for_each_product(std::span<const double> v, Take &&take) const;
 
   std::vector<std::vector<double>> p_, q_;
+  std::size_t max_bytes_;
+  std::size_t max_kept_ = 0; ///< the same on all processes
   std::size_t first_own_ = 0, n_own_ = 0;
   const Sharing *processes_ = nullptr;
 };

@@ -185,12 +185,15 @@ void FetiDual::set_rows(FetiContactRows contact, const std::vector<std::vector<d
   if (setup_processes_.true_on_all(contact == given_ && modes == modes_))
     return;
   ++n_setups_;
-  given_ = contact;
-  contact_ = std::move(contact);
-  agree_on_failures(setup_processes_, [&] { build_contact_problem(static_cast<Index>(modes.size())); });
+  given_ = {};
+  given_.symmetric = false; // differs from whatever comes, should this fail
+  contact_ = contact;
   const Index of_others = interface_->n_glue_rows_of_others();
-  directions_.start(of_others, glue_.size() - of_others + (counts_common() ? contact_.rows.size() : 0), processes_);
+  directions_.start(glue_.size() + contact_.rows.size(), of_others,
+                    glue_.size() - of_others + (counts_common() ? contact_.rows.size() : 0), processes_);
+  agree_on_failures(setup_processes_, [&] { build_contact_problem(static_cast<Index>(modes.size())); });
   set_modes(modes);
+  given_ = std::move(contact);
 }
 
 /// What depends on the contact rows, which all processes know: each for itself.

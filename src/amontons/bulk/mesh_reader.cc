@@ -118,7 +118,7 @@ private:
       if (mesh_.dim == 2 && std::abs(x[2]) > round_off * size)
         throw std::runtime_error("node " + std::to_string(tag) + " has z = " + text(x[2]) +
                                  "; a mesh for the plane or axisymmetry lies in z = 0 (kinematics: 3d otherwise)");
-      if (kinematics != Kinematics::axisymmetric || x[0] >= 0)
+      if (kinematics != Kinematics::axisymmetric || x[0] > round_off * size)
         continue;
       if (x[0] < -round_off * size)
         throw std::runtime_error("node " + std::to_string(tag) + " has x = " + text(x[0]) +

@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
 namespace amontons
 {
 namespace
 {
-/// Units that have common nodes, in METIS's form, with the number of nodes as weight.
+/// Units that have common nodes, in METIS's form, with the number of nodes as weight and that of cells as size.
 struct UnitGraph
 {
   std::vector<idx_t> offsets{0}, adjacent, common, sizes;
@@ -19,31 +18,40 @@ struct UnitGraph
 
 UnitGraph graph_of(const Mesh &mesh, std::span<const Index> unit_of_cell, Index n_units)
 {
-  std::vector<std::vector<Index>> units_of_node(static_cast<std::size_t>(mesh.n_nodes()));
+  std::vector<std::vector<Index>> units_of_node(static_cast<std::size_t>(mesh.n_nodes())),
+      nodes_of_unit(static_cast<std::size_t>(n_units));
   UnitGraph graph;
   graph.sizes.assign(static_cast<std::size_t>(n_units), 0);
   for (Index cell = 0; cell < mesh.cells.size(); ++cell)
   {
-    if (unit_of_cell[cell] < 0)
+    const Index unit = unit_of_cell[cell];
+    if (unit < 0)
       continue;
-    ++graph.sizes[unit_of_cell[cell]];
+    ++graph.sizes[unit];
     for (const Index node : mesh.cells[cell])
-      if (auto &units = units_of_node[node]; std::find(units.begin(), units.end(), unit_of_cell[cell]) == units.end())
-        units.push_back(unit_of_cell[cell]);
+      if (auto &units = units_of_node[node]; std::find(units.begin(), units.end(), unit) == units.end())
+      {
+        units.push_back(unit);
+        nodes_of_unit[unit].push_back(node);
+      }
   }
-  std::vector<std::map<Index, idx_t>> neighbours(static_cast<std::size_t>(n_units));
-  for (const auto &units : units_of_node)
-    for (const Index a : units)
-      for (const Index b : units)
-        if (a != b)
-          ++neighbours[a][b];
-  for (const auto &of_unit : neighbours)
+  std::vector<Index> others;
+  for (Index unit = 0; unit < n_units; ++unit)
   {
-    for (const auto &[other, n] : of_unit)
-    {
-      graph.adjacent.push_back(other);
-      graph.common.push_back(n);
-    }
+    others.clear();
+    for (const Index node : nodes_of_unit[unit])
+      for (const Index other : units_of_node[node])
+        if (other != unit)
+          others.push_back(other);
+    std::sort(others.begin(), others.end());
+    for (std::size_t k = 0; k < others.size(); ++k)
+      if (k == 0 || others[k] != others[k - 1])
+      {
+        graph.adjacent.push_back(others[k]);
+        graph.common.push_back(1);
+      }
+      else
+        ++graph.common.back();
     graph.offsets.push_back(static_cast<idx_t>(graph.adjacent.size()));
   }
   return graph;

@@ -46,9 +46,9 @@ Supports::Supports(const Mesh &mesh, Kinematics kinematics, const std::vector<Bo
   for (const HeldComponent &held : held_)
     if (held.nodal % 2 == 0)
       has[held.nodal / 2] = 1;
-  const auto [low, high] = std::minmax_element(mesh.points.begin(), mesh.points.end());
   for (Index node = 0; node < mesh.n_nodes(); ++node)
-    if (!has[node] && !is_rigid[node] && std::abs(mesh.points[2 * node]) <= 1e-12 * (*high - *low))
+    if (!has[node] && !is_rigid[node] &&
+        mesh.points[2 * node] == 0) // the reader puts on it what is there but for round-off
       held_.push_back({2 * node, -1, -1});
   std::sort(held_.begin(), held_.end(), [](const auto &a, const auto &b) { return a.nodal < b.nodal; });
 }

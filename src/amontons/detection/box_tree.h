@@ -61,14 +61,8 @@ public:
       return 0;
     return box_kernels<dim>().collect(view(), low.data(), high.data(), rounded_up(squared_bound), leaves, capacity);
   }
-  /// The leaf will be looked at.
-  void expect(std::uint32_t leaf) const
-  {
-    for (std::size_t line = 0; line < sizeof(BoxNode<dim>); line += 64)
-      __builtin_prefetch(reinterpret_cast<const char *>(nodes_.data() + leaf) + line);
-  }
   /// Faces of these leaves near a group of points: see BoxKernels.
-  /// @param n_points of the group; the others are set to the first
+  /// @param n_points of the group; the others are set to the low corner of its box
   bool measure(std::span<const std::uint32_t> leaves, int n_points, double squared_bound, Group &group,
                std::uint32_t *likeliest) const;
 

@@ -63,7 +63,6 @@ private:
   void refit();
   void seek(const Query &query, std::size_t block, std::span<const Index> nodes);
   void start(const Query &query, std::span<const Index> nodes);
-  void expect(const Query &query, std::size_t block, std::span<const Index> nodes) const;
   void expect(std::span<const std::uint32_t> leaves) const;
   void seek_once(const Query &query, std::span<const int> places);
   [[nodiscard]] Region<dim> region_of(std::span<const int> places) const;

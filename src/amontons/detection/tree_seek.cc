@@ -62,20 +62,6 @@ void TreeSearch<dim>::start(const Query &query, std::span<const Index> nodes)
     block_[place].radius = std::min(usual_radius_, block_[place].bound());
 }
 
-// A block comes next: what lies far in memory is fetched in time.
-template<int dim>
-void TreeSearch<dim>::expect(const Query &query, std::size_t block, std::span<const Index> nodes) const
-{
-  for (const Index node : nodes)
-  {
-    __builtin_prefetch(query.x.data() + static_cast<std::ptrdiff_t>(node) * dim);
-    __builtin_prefetch(hints_.data() + node);
-  }
-  for (const std::uint32_t leaf : near_.leaves(block))
-    tree_.expect(leaf);
-  expect(near_.leaves(block));
-}
-
 template<int dim>
 void TreeSearch<dim>::expect(std::span<const std::uint32_t> leaves) const
 {
@@ -300,8 +286,6 @@ void TreeSearch<dim>::descend(const Query &query, Sought &sought)
   sought.is_done = true;
 }
 
-template void TreeSearch<2>::expect(const Query &, std::size_t, std::span<const Index>) const;
-template void TreeSearch<3>::expect(const Query &, std::size_t, std::span<const Index>) const;
 template void TreeSearch<2>::seek(const Query &, std::size_t, std::span<const Index>);
 template void TreeSearch<3>::seek(const Query &, std::size_t, std::span<const Index>);
 } // namespace amontons

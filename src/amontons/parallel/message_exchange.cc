@@ -123,8 +123,14 @@ std::vector<Message> MessageExchange::exchange(const std::string &phase, std::ve
 std::vector<Message> MessageExchange::exchange_with(const std::string &phase, std::vector<Message> out,
                                                     std::span<const Rank> sources)
 {
-  std::vector<Message> in = take_own(out, own_.rank());
   check_lengths(own_, out);
+  return exchange_short_with(phase, std::move(out), sources);
+}
+
+std::vector<Message> MessageExchange::exchange_short_with(const std::string &phase, std::vector<Message> out,
+                                                          std::span<const Rank> sources)
+{
+  std::vector<Message> in = take_own(out, own_.rank());
   count(phase, out);
   std::vector<MPI_Request> sends(out.size());
   for (std::size_t i = 0; i < out.size(); ++i)

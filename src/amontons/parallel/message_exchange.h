@@ -48,6 +48,10 @@ public:
   /// @param sources by rank, each once @return in their order
   std::vector<Message> exchange_with(const std::string &phase, std::vector<Message> out, std::span<const Rank> sources);
 
+  /// The same without agreement on the messages' lengths, for those that are known to be below 2 GB. Not collective.
+  std::vector<Message> exchange_short_with(const std::string &phase, std::vector<Message> out,
+                                           std::span<const Rank> sources);
+
   /// The greatest, and the sum, of all processes' values, entry by entry, on all.
   void maximum(const std::string &phase, std::span<double> values);
   void sum(const std::string &phase, std::span<double> values);

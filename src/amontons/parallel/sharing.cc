@@ -151,7 +151,7 @@ std::vector<Message> Sharing::swap(std::span<const double> values, int width) co
     writer.add_values(std::span<const double>(sent));
     out.push_back({neighbour.rank, writer.take()});
   }
-  return messages_->exchange_with(phase_, std::move(out), neighbour_ranks_);
+  return messages_->exchange_short_with(phase_, std::move(out), neighbour_ranks_);
 }
 
 /// Calls take(place, value, rank) for every copy of every shared item, rank after rank, its own among them.

@@ -84,7 +84,7 @@ std::vector<Index> make_partition(const ProblemOptions &options, const Mesh &mes
   for (int size = subdomain_size(mesh.dim); size > mesh.dim; size /= 2)
   {
     out = partition_cells(mesh, options.bodies, size);
-    if (*std::max_element(out.begin(), out.end()) + 1 >= n_processes)
+    if (out.empty() || *std::max_element(out.begin(), out.end()) + 1 >= n_processes)
       break;
   }
   return out;

@@ -64,7 +64,8 @@ private:
     bool rotation;
   };
   void join_nodes(std::vector<int> &parent, std::vector<int> &body_of_node) const;
-  [[nodiscard]] std::vector<double> greatest_of_part(std::vector<int> &parent, const std::vector<double> &body) const;
+  [[nodiscard]] double name_of(Index node) const;
+  [[nodiscard]] std::vector<double> names_of_parts(std::vector<int> &parent, const std::vector<double> &body) const;
   void gather_parts(std::vector<std::pair<double, double>> &parts) const;
   void find_parts();
   void make_modes();

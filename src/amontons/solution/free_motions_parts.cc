@@ -2,12 +2,19 @@
 #include "amontons/solution/free_motions.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 
 /// FreeMotions: which nodes hang together, over all processes.
 namespace amontons
 {
+/// A number of a node, the greater the lower its position in the whole.
+double FreeMotions::name_of(Index node) const
+{
+  return static_cast<double>(model_.mesh().n_global_nodes + model_.rigid().n_extra_nodes() - model_.node_id(node));
+}
+
 /// What hangs together on this process, by a node for each, and the body of every node that can move, or -1.
 void FreeMotions::join_nodes(std::vector<int> &parent, std::vector<int> &body_of_node) const
 {
@@ -38,14 +45,14 @@ void FreeMotions::join_nodes(std::vector<int> &parent, std::vector<int> &body_of
   }
 }
 
-/// The greatest number of a node in the part that each node hangs together with, over all processes; -1 for nodes that
-/// cannot move. [n_nodes]
-std::vector<double> FreeMotions::greatest_of_part(std::vector<int> &parent, const std::vector<double> &body) const
+/// The lowest number of a node in the part that each node hangs together with, over all processes, counted from the
+/// end of all numbers; -1 for nodes that cannot move. [n_nodes]
+std::vector<double> FreeMotions::names_of_parts(std::vector<int> &parent, const std::vector<double> &body) const
 {
   std::vector<double> label(parent.size(), -1), of_root(parent.size(), -1);
   for (std::size_t node = 0; node < label.size(); ++node)
     if (body[node] >= 0)
-      label[node] = static_cast<double>(model_.node_id(static_cast<Index>(node)));
+      label[node] = name_of(static_cast<Index>(node));
   for (bool changed = true; changed;)
   {
     model_.nodes().maximum(label);
@@ -72,16 +79,16 @@ void FreeMotions::find_parts()
   join_nodes(parent, own_body);
   std::vector<double> body(own_body.begin(), own_body.end());
   model_.nodes().maximum(body);
-  const std::vector<double> label = greatest_of_part(parent, body);
+  const std::vector<double> label = names_of_parts(parent, body);
 
   // The node that gives its number to a part tells all processes of it.
   std::vector<std::pair<double, double>> parts;
   for (std::size_t node = 0; node < n; ++node)
     if (label[node] >= 0 && model_.nodes().is_own(static_cast<Index>(node)) &&
-        label[node] == static_cast<double>(model_.node_id(static_cast<Index>(node))))
+        label[node] == name_of(static_cast<Index>(node)))
       parts.emplace_back(label[node], body[node]);
   gather_parts(parts);
-  std::sort(parts.begin(), parts.end());
+  std::sort(parts.begin(), parts.end(), std::greater<>());
   part_of_node_.assign(n, -1);
   const auto n_parts = parts.size();
   constexpr double none = -std::numeric_limits<double>::infinity();
@@ -90,7 +97,8 @@ void FreeMotions::find_parts()
   {
     if (label[node] < 0)
       continue;
-    const auto part = std::lower_bound(parts.begin(), parts.end(), std::pair{label[node], none}) - parts.begin();
+    const auto part =
+        std::lower_bound(parts.begin(), parts.end(), std::pair{label[node], -none}, std::greater<>()) - parts.begin();
     part_of_node_[node] = static_cast<int>(part);
     const Eigen::Vector3d x = model_.reference(static_cast<Index>(node));
     for (int c = 0; c < 3; ++c)

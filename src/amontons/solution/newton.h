@@ -88,6 +88,7 @@ private:
   double reach_ = 0;
   bool tangent_assembled_ = false;
   std::vector<double> residual_;
-  std::vector<int> n_flips_; ///< of each contact node's status within the increment
+  std::vector<double> diagonal_; ///< see diagonal_stiffness(), of the present tangent
+  std::vector<int> n_flips_;     ///< of each contact node's status within the increment
 };
 } // namespace amontons

@@ -10,12 +10,15 @@ namespace
 constexpr double round_off = 1e-13;
 
 /// Forces that a displacement meets at the nodes' own stiffness: round-off in the internal forces is a part of them.
-double resisted_force(const Model &model, std::span<const double> displacement)
+/// @param stiffness nodal, see diagonal_stiffness()
+double resisted_force(const Model &model, std::span<const double> stiffness, std::span<const double> displacement)
 {
-  std::vector<double> force = diagonal_stiffness(model);
-  for (std::size_t i = 0; i < force.size(); ++i)
-    force[i] *= displacement[i];
-  return std::sqrt(model.nodes().dot(force, force, model.dim()));
+  double sum = 0;
+  for (std::size_t i = 0; i < stiffness.size(); ++i)
+    if (model.nodes().is_own(static_cast<Index>(i) / model.dim()))
+      sum += std::pow(stiffness[i] * displacement[i], 2);
+  model.nodes().sum_over_processes({&sum, 1});
+  return std::sqrt(sum);
 }
 
 /// Identifies a set of statuses and faces.
@@ -40,6 +43,7 @@ void Newton::prepare_matrix(const State &state, double time)
     if (!model_.nodes().true_on_all(model_.bodies().assemble_tangent(model_.mesh_part(state.displacement), time)))
       throw NumericalFailure("a cell turned inside out");
     ++counters_.n_bulk_assemblies;
+    diagonal_ = diagonal_stiffness(model_);
     tangent_assembled_ = true;
     fresh = true;
   }
@@ -73,8 +77,8 @@ void Newton::compute_residual(Evaluation &out, const State &state, double time,
   out.scale = std::sqrt(std::max(
       {nodes.dot(internal, internal, dim), nodes.dot(external, external, dim), contact.force_norm2, norm2(rigid)}));
   // Bodies that travel freely bear no force but round-off.
-  out.scale =
-      std::max(out.scale, round_off / model_.options().solver.tolerance * resisted_force(model_, state.displacement));
+  out.scale = std::max(out.scale, round_off / model_.options().solver.tolerance *
+                                      resisted_force(model_, diagonal_, state.displacement));
   if (!std::isfinite(out.norm))
     out.valid = false;
 

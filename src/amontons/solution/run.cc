@@ -282,9 +282,14 @@ private:
 RunResult run(const ProblemOptions &options, std::span<Observer *const> observers, const Checkpoint *from,
               const Communicator &communicator)
 {
-  Run run(options, observers, from, communicator);
+  std::optional<Run> run; // outlives a failure of one process: its destruction is collective
   RunResult result;
-  end_together(communicator, [&] { result = run.solve(); });
+  end_together(communicator,
+               [&]
+               {
+                 run.emplace(options, observers, from, communicator);
+                 result = run->solve();
+               });
   return result;
 }
 
