@@ -76,7 +76,8 @@ class Restart(CommandTest):
             go_on = ["--restart", checkpoint] if checkpoint.exists() else []
             run = subprocess.Popen([*launcher(processes), PROGRAM, "run", "deck.yaml", "--output", "killed", *go_on],
                                    cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            while self.n_converged("killed") < (kill + 1) * n_increments // (n_kills + 2):
+            while (self.n_converged("killed") < (kill + 1) * n_increments // (n_kills + 2)
+                   or processes > 1 and not children(run.pid)):  # mpirun takes its time
                 self.assertIsNone(run.poll(), f"seed {seed}")
                 time.sleep(0.002)
             time.sleep(moment.uniform(0, 0.05))
