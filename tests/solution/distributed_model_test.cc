@@ -31,6 +31,7 @@ Problem blocks()
   mesh.add("lower", {0, 0, 0}, {2, 2, 1}, {4, 3, 2});
   mesh.add("upper", {0.3, 0.2, 1.02}, {1, 1.2, 1}, {3, 3, 3});
   mesh.add_sheet("sheet", {-1, -1, -0.01}, {4, 0, 0}, {0, 4, 0}, {2, 2});
+  mesh.add_sheet("loose", {5, 5, 5}, {1, 0, 0}, {0, 1, 0}, {1, 1}); // of no body: with process 0
   mesh.add_point("corner", {1.3, 1.4, 2.02});
   Problem problem(mesh, Kinematics::three_dimensional);
   problem.elastic("lower", 10);
@@ -190,9 +191,9 @@ TEST_F(DistributedModel, WhatMovesFreelyIsKnownToAll)
 
 TEST_F(DistributedModel, AnErrorOfOneIsAnErrorOfAll)
 {
-  problem_.options.boundary[0].region = "lower_lefd";
+  problem_.on("loose").traction[0] = expression(1);
   EXPECT_THROW(Model(problem_.options, messages_), UserError);
-  problem_.options.boundary[0].region = "lower_left";
+  problem_.options.boundary.pop_back();
   problem_.options.contact[0].target = "lower_tob";
   EXPECT_THROW(Model(problem_.options, messages_), UserError);
 }

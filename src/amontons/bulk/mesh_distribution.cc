@@ -1,5 +1,7 @@
 #include "amontons/bulk/mesh_distribution.h"
 
+#include "amontons/parallel/archive.h"
+
 #include <algorithm>
 #include <map>
 
@@ -7,113 +9,71 @@ namespace amontons
 {
 namespace
 {
-void add(ByteWriter &writer, const Connectivity &entities)
+template<class Archive>
+void show(Archive &message, Connectivity &entities)
 {
-  writer.add_array(entities.offsets);
-  writer.add_array(entities.nodes);
+  message.array(entities.offsets);
+  message.array(entities.nodes);
 }
 
-Connectivity get_connectivity(ByteReader &reader)
+/// All but the adjacency, which follows from it.
+template<class Archive>
+void show(Archive &message, Surface &surface)
 {
-  Connectivity out;
-  out.offsets = reader.get_array<Index>();
-  out.nodes = reader.get_array<Index>();
-  return out;
+  message.value(surface.dim);
+  message.array(surface.node_ids);
+  message.array(surface.reference);
+  message.array(surface.face_offsets);
+  message.array(surface.face_nodes);
+  message.array(surface.face_ids);
+  message.array(surface.face_bodies);
 }
 
-void add(ByteWriter &writer, const std::string &text)
+template<class Archive>
+void show(Archive &message, Group &group)
 {
-  writer.add_array(std::vector<char>(text.begin(), text.end()));
+  message.value(group.dim);
+  show(message, group.entities);
+  message.array(group.cells);
+  message.array(group.other_nodes);
 }
 
-std::string get_text(ByteReader &reader)
+template<class Archive>
+void show(Archive &message, Mesh &mesh)
 {
-  const std::vector<char> text = reader.get_array<char>();
-  return {text.begin(), text.end()};
-}
-
-void add(ByteWriter &writer, const Surface &surface)
-{
-  writer.add(surface.dim);
-  writer.add_array(surface.node_ids);
-  writer.add_array(surface.reference);
-  writer.add_array(surface.face_offsets);
-  writer.add_array(surface.face_nodes);
-  writer.add_array(surface.face_ids);
-  writer.add_array(surface.face_bodies);
-}
-
-Surface get_surface(ByteReader &reader)
-{
-  Surface out;
-  out.dim = reader.get<int>();
-  out.node_ids = reader.get_array<GlobalIndex>();
-  out.reference = reader.get_array<double>();
-  out.face_offsets = reader.get_array<Index>();
-  out.face_nodes = reader.get_array<Index>();
-  out.face_ids = reader.get_array<GlobalIndex>();
-  out.face_bodies = reader.get_array<Index>();
-  out.build_adjacency();
-  return out;
-}
-
-Bytes packed(const MeshPart &part)
-{
-  const Mesh &mesh = part.mesh;
-  ByteWriter writer;
-  writer.add(mesh.dim);
-  writer.add(mesh.n_global_nodes);
-  writer.add(mesh.n_global_cells);
-  add(writer, mesh.file);
-  writer.add_array(mesh.points);
-  writer.add_array(mesh.node_tags);
-  writer.add_array(mesh.node_ids);
-  add(writer, mesh.cells);
-  writer.add_array(mesh.cell_tags);
-  writer.add_array(mesh.cell_ids);
-  writer.add(static_cast<Index>(mesh.groups.size()));
+  message.value(mesh.dim);
+  message.value(mesh.n_global_nodes);
+  message.value(mesh.n_global_cells);
+  message.text(mesh.file);
+  message.array(mesh.points);
+  message.array(mesh.node_tags);
+  message.array(mesh.node_ids);
+  show(message, mesh.cells);
+  message.array(mesh.cell_tags);
+  message.array(mesh.cell_ids);
+  std::vector<std::string> names;
   for (const auto &[name, group] : mesh.groups)
+    names.push_back(name);
+  std::size_t n_groups = names.size();
+  message.value(n_groups);
+  names.resize(n_groups);
+  for (std::string &name : names)
   {
-    add(writer, name);
-    writer.add(group.dim);
-    add(writer, group.entities);
-    writer.add_array(group.cells);
-    writer.add_array(group.other_nodes);
+    message.text(name);
+    show(message, mesh.groups[name]);
   }
-  writer.add_array(part.subdomain_of_cell);
-  writer.add(static_cast<Index>(part.surfaces.size()));
-  for (const Surface &surface : part.surfaces)
-    add(writer, surface);
-  return writer.take();
 }
 
-MeshPart unpacked(std::span<const std::byte> bytes)
+template<class Archive>
+void show(Archive &message, MeshPart &part)
 {
-  ByteReader reader(bytes);
-  MeshPart part;
-  Mesh &mesh = part.mesh;
-  mesh.dim = reader.get<int>();
-  mesh.n_global_nodes = reader.get<GlobalIndex>();
-  mesh.n_global_cells = reader.get<GlobalIndex>();
-  mesh.file = get_text(reader);
-  mesh.points = reader.get_array<double>();
-  mesh.node_tags = reader.get_array<GlobalIndex>();
-  mesh.node_ids = reader.get_array<GlobalIndex>();
-  mesh.cells = get_connectivity(reader);
-  mesh.cell_tags = reader.get_array<GlobalIndex>();
-  mesh.cell_ids = reader.get_array<GlobalIndex>();
-  for (auto n_groups = reader.get<Index>(); n_groups > 0; --n_groups)
-  {
-    Group &group = mesh.groups[get_text(reader)];
-    group.dim = reader.get<int>();
-    group.entities = get_connectivity(reader);
-    group.cells = reader.get_array<Index>();
-    group.other_nodes = reader.get_array<Index>();
-  }
-  part.subdomain_of_cell = reader.get_array<Index>();
-  for (auto n_surfaces = reader.get<Index>(); n_surfaces > 0; --n_surfaces)
-    part.surfaces.push_back(get_surface(reader));
-  return part;
+  show(message, part.mesh);
+  message.array(part.subdomain_of_cell);
+  std::size_t n_surfaces = part.surfaces.size();
+  message.value(n_surfaces);
+  part.surfaces.resize(n_surfaces);
+  for (Surface &surface : part.surfaces)
+    show(message, surface);
 }
 
 /// Cuts the whole mesh up, part after part.
@@ -313,10 +273,20 @@ MeshPart distribute(MessageExchange &messages, const MeshPart &whole, std::span<
   {
     Cutter cutter(whole, process_of_cell, is_rigid, everywhere, all.size());
     for (Rank rank = 0; rank < all.size(); ++rank)
-      out.push_back({rank, packed(cutter.part(rank))});
+    {
+      Packer packer;
+      MeshPart part = cutter.part(rank);
+      show(packer, part);
+      out.push_back({rank, packer.message.take()});
+    }
   }
   const std::vector<Rank> root{0};
   const std::vector<Message> in = messages.exchange_with("mesh", std::move(out), root);
-  return unpacked(in.front().bytes);
+  Unpacker unpacker{ByteReader(in.front().bytes)};
+  MeshPart part;
+  show(unpacker, part);
+  for (Surface &surface : part.surfaces)
+    surface.build_adjacency();
+  return part;
 }
 } // namespace amontons

@@ -3,6 +3,7 @@
 #include "amontons/base/error.h"
 #include "amontons/base/hash.h"
 #include "amontons/parallel/agreement.h"
+#include "amontons/parallel/archive.h"
 
 #include <algorithm>
 #include <map>
@@ -14,40 +15,6 @@ namespace
 {
 const char *const phase = "checkpoint";
 constexpr std::size_t numbers_of_rigid_body = 15;
-
-/// Puts into a message what it is shown.
-struct Packer
-{
-  ByteWriter message;
-
-  template<class T>
-  void value(const T &value)
-  {
-    message.add(value);
-  }
-  template<class T>
-  void array(const std::vector<T> &values)
-  {
-    message.add_array(values);
-  }
-};
-
-/// Takes it out again.
-struct Unpacker
-{
-  ByteReader message;
-
-  template<class T>
-  void value(T &value)
-  {
-    value = message.get<T>();
-  }
-  template<class T>
-  void array(std::vector<T> &values)
-  {
-    values = message.get_array<T>();
-  }
-};
 
 template<class Archive>
 void show(Archive &message, State &state)

@@ -34,6 +34,29 @@ void check_pressures(const Mesh &mesh, const ProblemOptions &options, const std:
     if (entry.pressure && !regions.is_rigid(entry))
       (void)regions.facets(entry, true);
 }
+
+/// Cells and nodes of meshed rigid bodies.
+struct RigidParts
+{
+  std::vector<bool> is_rigid; ///< [n_cells]
+  std::vector<Index> nodes;
+};
+
+RigidParts rigid_parts(const Mesh &mesh, const std::vector<BodyOptions> &bodies)
+{
+  RigidParts out{std::vector<bool>(static_cast<std::size_t>(mesh.cells.size()), false), {}};
+  for (const BodyOptions &body : bodies)
+  {
+    if (body.material.law != MaterialLaw::rigid || body.shape)
+      continue;
+    const Group &group = find_group(mesh, body.region, -1, body.where);
+    for (const Index cell : group.cells)
+      out.is_rigid[cell] = true;
+    const std::vector<Index> nodes = group.nodes();
+    out.nodes.insert(out.nodes.end(), nodes.begin(), nodes.end());
+  }
+  return out;
+}
 } // namespace
 
 Model::Model(const ProblemOptions &options, std::shared_ptr<MessageExchange> messages)
@@ -54,50 +77,45 @@ Model::Model(const ProblemOptions &options, std::shared_ptr<MessageExchange> mes
   build_layout();
 }
 
-/// The whole mesh with what is known of it as a whole: on process 0.
+/// The whole mesh with what is known of it as a whole.
+void Model::read_whole(int n_processes)
+{
+  part_.mesh = read_mesh(options_.mesh);
+  if ((options_.mesh.kinematics == Kinematics::three_dimensional) != (mesh().dim == 3))
+    throw UserError(options_.mesh.where, "the mesh is " + std::to_string(mesh().dim) +
+                                             "-dimensional and does not fit the kinematics asked for");
+  for (const ContactOptions &contact : options_.contact)
+    for (Surface &side : contact_sides(mesh(), contact, options_.bodies))
+      part_.surfaces.push_back(std::move(side));
+  part_.subdomain_of_cell = make_partition(options_, mesh(), n_processes);
+  problem_key_ = amontons::problem_key(options_, mesh());
+}
+
+/// On process 0 the whole, then on each its part.
 void Model::read_part()
 {
-  const auto read = [this]
-  {
-    part_.mesh = read_mesh(options_.mesh);
-    if ((options_.mesh.kinematics == Kinematics::three_dimensional) != (mesh().dim == 3))
-      throw UserError(options_.mesh.where, "the mesh is " + std::to_string(mesh().dim) +
-                                               "-dimensional and does not fit the kinematics asked for");
-    for (const ContactOptions &contact : options_.contact)
-      for (Surface &side : contact_sides(mesh(), contact, options_.bodies))
-        part_.surfaces.push_back(std::move(side));
-    part_.subdomain_of_cell = make_partition(options_, mesh(), messages_ ? messages_->communicator().size() : 1);
-    problem_key_ = amontons::problem_key(options_, mesh());
-  };
   if (!messages_ || messages_->communicator().size() == 1)
   {
-    read();
+    read_whole(1);
     return;
   }
   const Communicator &all = messages_->communicator();
   std::vector<Rank> process_of_cell;
-  std::vector<bool> is_rigid;
-  std::vector<Index> rigid_nodes;
+  RigidParts rigid;
+  const auto read_and_divide = [&]
+  {
+    read_whole(all.size());
+    rigid = rigid_parts(mesh(), options_.bodies);
+    check_pressures(mesh(), options_, rigid.is_rigid);
+    process_of_cell = processes_of_cells(mesh(), part_.subdomain_of_cell, rigid.is_rigid, all.size());
+  };
   agree_on_errors(all,
                   [&]
                   {
-                    if (!all.is_root())
-                      return;
-                    read();
-                    is_rigid.assign(static_cast<std::size_t>(mesh().cells.size()), false);
-                    for (const BodyOptions &body : options_.bodies)
-                      if (body.material.law == MaterialLaw::rigid && !body.shape)
-                      {
-                        const Group &group = find_group(mesh(), body.region, -1, body.where);
-                        for (const Index cell : group.cells)
-                          is_rigid[cell] = true;
-                        for (const Index node : group.nodes())
-                          rigid_nodes.push_back(node);
-                      }
-                    check_pressures(mesh(), options_, is_rigid);
-                    process_of_cell = processes_of_cells(mesh(), part_.subdomain_of_cell, is_rigid, all.size());
+                    if (all.is_root())
+                      read_and_divide();
                   });
-  part_ = distribute(*messages_, part_, process_of_cell, is_rigid, rigid_nodes);
+  part_ = distribute(*messages_, part_, process_of_cell, rigid.is_rigid, rigid.nodes);
   problem_key_ = std::stoull(all.broadcast(std::to_string(problem_key_), 0));
 }
 

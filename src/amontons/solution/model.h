@@ -81,6 +81,7 @@ public:
   [[nodiscard]] double prescribed_motion(double from, double to) const;
 
 private:
+  void read_whole(int n_processes);
   void read_part();
   void build_bodies();
   void build_contacts();
