@@ -39,7 +39,11 @@ def main():
             alone = solve(program, example, overrides, linear, 1)
             rows.append(row(example, linear, 1, alone, {}))
             for processes in PROCESSES:
-                finished = solve(program, example, overrides, linear, processes)
+                try:
+                    finished = solve(program, example, overrides, linear, processes)
+                except RuntimeError as failure:
+                    wrong.append(str(failure))
+                    continue
                 found = worst(alone, finished)
                 rows.append(row(example, linear, processes, finished, found))
                 print("  ".join(rows[-1]), file=sys.stderr, flush=True)
