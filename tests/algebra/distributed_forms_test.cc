@@ -42,16 +42,38 @@ protected:
 TEST_P(DividedProblem, PartsMakeTheWhole)
 {
   const auto messages = std::make_shared<MessageExchange>(Communicator(MPI_COMM_WORLD));
-  const ProblemPart part = test::Division(problem_, messages, deal()).take();
+  const ProblemPart part = test::Division(problem_, problem_.patterns, messages, deal()).take();
   const std::vector<double> x = problem_.random_rhs(), whole = stiffness_times(problem_, x);
   std::vector<double> forces = stiffness_times(part, part.of(x));
   part.layout.sharing().sum(forces);
   for (std::size_t i = 0; i < forces.size(); ++i)
     EXPECT_NEAR(forces[i], whole[part.unknowns[i]], 1e-12);
   EXPECT_EQ(part.layout.sharing().n_global(), problem_.layout.n_displacement_unknowns());
-  for (std::size_t k = 0; k < problem_.patterns.size(); ++k)
-    for (int a = 0; a < problem_.patterns[k].n_nodal(); ++a)
-      EXPECT_EQ(part.nodes[part.patterns[k].nodal[a] / part.dim], problem_.patterns[k].nodal[a] / part.dim);
+}
+
+/// Each constraint once, by the owner of its impactor node and the node's unknowns.
+TEST_P(DividedProblem, ConstraintsHaveOneGiver)
+{
+  const auto messages = std::make_shared<MessageExchange>(Communicator(MPI_COMM_WORLD));
+  const ProblemPart part = test::Division(problem_, problem_.patterns, messages, deal()).take();
+  std::vector<double> n_givers(problem_.patterns.size(), 0.0);
+  for (std::size_t k = 0; k < part.patterns.size(); ++k)
+  {
+    const ConstraintPattern &pattern = part.patterns[k], &whole = problem_.patterns[part.whole_constraints[k]];
+    ++n_givers[part.whole_constraints[k]];
+    ASSERT_EQ(pattern.n_nodal(), whole.n_nodal());
+    for (int a = 0; a < pattern.n_nodal(); ++a)
+      EXPECT_EQ(part.nodes[pattern.nodal[a] / part.dim] * part.dim + pattern.nodal[a] % part.dim, whole.nodal[a]);
+    for (int m = 0; m < pattern.n_multipliers; ++m)
+      EXPECT_EQ(part.unknowns[part.layout.multiplier(pattern.multipliers[m])],
+                problem_.layout.multiplier(whole.multipliers[m]));
+    EXPECT_TRUE(part.nodes_sharing.is_own(pattern.nodal[0] / part.dim));
+    for (int c = 0; c < part.dim; ++c)
+      for (const Term &term : part.layout.terms(pattern.nodal[c]))
+        EXPECT_TRUE(term.unknown < part.n_rigid || part.layout.sharing().is_own(term.unknown));
+  }
+  part.layout.sharing().sum_over_processes(n_givers);
+  EXPECT_EQ(n_givers, std::vector<double>(problem_.patterns.size(), 1.0));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DividedProblem,

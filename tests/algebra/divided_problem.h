@@ -9,23 +9,15 @@
 
 namespace amontons::test
 {
-/// What a process has of a problem: some of its subdomains with their nodes, the nodes of constraints and of the rigid
-/// body on every process, first and in the same order.
+/// What a process has of a problem: some of its subdomains with their nodes, the nodes of the rigid body, the
+/// constraints of impactor nodes that it owns, and last the other nodes of these.
 struct ProblemPart : FormProblem
 {
-  std::vector<Index> nodes;                  ///< [n_nodes] node of the whole
-  std::vector<Index> unknowns;               ///< [n_unknowns] unknown of the whole, multipliers too
-  std::vector<std::size_t> whole_subdomains; ///< [n_subdomains] subdomain of the whole
+  std::vector<Index> nodes;                   ///< [n_nodes] node of the whole
+  std::vector<Index> unknowns;                ///< [n_unknowns] unknown of the whole, multipliers too
+  std::vector<std::size_t> whole_subdomains;  ///< [n_subdomains] subdomain of the whole
+  std::vector<std::size_t> whole_constraints; ///< [patterns] constraint of the whole
 
-  /// Patterns over nodes that every process has.
-  [[nodiscard]] std::vector<ConstraintPattern> local(std::vector<ConstraintPattern> whole) const
-  {
-    for (ConstraintPattern &pattern : whole)
-      for (Index &nodal : pattern.nodal)
-        nodal =
-            static_cast<Index>(std::find(nodes.begin(), nodes.end(), nodal / dim) - nodes.begin()) * dim + nodal % dim;
-    return whole;
-  }
   [[nodiscard]] std::vector<double> of(const std::vector<double> &whole) const
   {
     std::vector<double> out;
@@ -50,27 +42,28 @@ inline Rank rank_of_subdomain(Deal deal, std::size_t subdomain, std::size_t n_su
                                                    : n_processes - 1);
 }
 
-/// Collective. Whoever has a subdomain with a node prefers to own its unknowns.
+/// Collective. Whoever has a subdomain with a node prefers to own it and its unknowns.
 class Division
 {
 public:
-  Division(const FormProblem &whole, std::shared_ptr<MessageExchange> messages, Deal deal)
+  /// @param patterns of the whole
+  Division(const FormProblem &whole, const std::vector<ConstraintPattern> &patterns,
+           std::shared_ptr<MessageExchange> messages, Deal deal)
     : whole_(whole)
+    , messages_(std::move(messages))
     , local_of_(static_cast<std::size_t>(whole.n_nodes()), -1)
-    , touched_(static_cast<std::size_t>(whole.n_nodes()), 0)
   {
     part_.dim = whole.dim;
     part_.n_rigid = whole.n_rigid;
-    const Communicator &all = messages->communicator();
+    const Communicator &all = messages_->communicator();
     for (std::size_t s = 0; s < whole.subdomains.size(); ++s)
       if (rank_of_subdomain(deal, s, whole.subdomains.size(), all.size()) == all.rank())
       {
         part_.subdomains.push_back(whole.subdomains[s]);
         part_.whole_subdomains.push_back(s);
       }
-    number_nodes();
-    part_.nodes_sharing = Sharing(messages, "nodes", std::vector<GlobalIndex>(part_.nodes.begin(), part_.nodes.end()));
-    number_unknowns(std::move(messages));
+    number_nodes(patterns);
+    number_unknowns();
   }
   [[nodiscard]] ProblemPart take() { return std::move(part_); }
 
@@ -93,31 +86,56 @@ private:
     return false;
   }
 
-  void number_nodes()
+  void number_nodes(const std::vector<ConstraintPattern> &patterns)
   {
-    const int dim = whole_.dim;
-    std::vector<char> everywhere(static_cast<std::size_t>(whole_.n_nodes()), 0);
-    for (const Index node : whole_.contact_nodes)
-      everywhere[node] = 1;
-    for (const ConstraintPattern &pattern : whole_.patterns)
-      for (const Index nodal : pattern.nodal)
-        everywhere[nodal / dim] = 1;
-    for (Index node = 0; node < whole_.n_nodes(); ++node)
-      if (everywhere[node] != 0 || is_rigid(node))
-        add_node(node);
     for (SubdomainMatrix &matrix : part_.subdomains)
       for (Index &node : matrix.nodes)
       {
-        touched_[node] = 1;
         add_node(node);
         node = local_of_[node];
       }
+    n_touched_ = part_.nodes.size();
+    for (Index node = 0; node < whole_.n_nodes(); ++node)
+      if (is_rigid(node))
+        add_node(node);
+    share_nodes();
+    take_constraints(patterns);
+    share_nodes();
     for (const Index node : whole_.contact_nodes)
-      part_.contact_nodes.push_back(local_of_[node]);
-    part_.patterns = part_.local(whole_.patterns);
+      if (local_of_[node] >= 0)
+        part_.contact_nodes.push_back(local_of_[node]);
+  }
+  void share_nodes()
+  {
+    std::vector<char> preferred(part_.nodes.size(), 0);
+    std::fill_n(preferred.begin(), n_touched_, 1);
+    part_.nodes_sharing =
+        Sharing(messages_, "nodes", std::vector<GlobalIndex>(part_.nodes.begin(), part_.nodes.end()), preferred);
+  }
+  /// Those of own impactor nodes, with the halo that they need.
+  void take_constraints(const std::vector<ConstraintPattern> &patterns)
+  {
+    const int dim = whole_.dim;
+    for (std::size_t k = 0; k < patterns.size(); ++k)
+      if (const Index impactor = local_of_[patterns[k].nodal[0] / dim];
+          impactor >= 0 && impactor < part_.nodes_sharing.size() && part_.nodes_sharing.is_own(impactor))
+      {
+        part_.whole_constraints.push_back(k);
+        ConstraintPattern &pattern = part_.patterns.emplace_back(patterns[k]);
+        for (Index &nodal : pattern.nodal)
+        {
+          add_node(nodal / dim);
+          nodal = local_of_[nodal / dim] * dim + nodal % dim;
+        }
+        for (int m = 0; m < pattern.n_multipliers; ++m)
+        {
+          multipliers_.push_back(whole_.layout.multiplier(pattern.multipliers[m]));
+          pattern.multipliers[m] = static_cast<Index>(multipliers_.size()) - 1;
+        }
+      }
   }
 
-  void number_unknowns(std::shared_ptr<MessageExchange> messages)
+  void number_unknowns()
   {
     const int dim = whole_.dim;
     std::vector<Index> offsets{0};
@@ -126,31 +144,32 @@ private:
     std::vector<char> preferred(static_cast<std::size_t>(whole_.n_rigid), 0);
     for (Index unknown = 0; unknown < whole_.n_rigid; ++unknown)
       ids.push_back(unknown);
-    for (const Index node : part_.nodes)
+    for (std::size_t k = 0; k < part_.nodes.size(); ++k)
       for (int c = 0; c < dim; ++c)
       {
-        for (const Term &term : whole_.layout.terms(node * dim + c))
+        for (const Term &term : whole_.layout.terms(part_.nodes[k] * dim + c))
         {
           const bool rigid = term.unknown < whole_.n_rigid;
           terms.push_back({rigid ? term.unknown : static_cast<Index>(ids.size()), term.coefficient});
           if (rigid)
             continue;
           ids.push_back(term.unknown);
-          preferred.push_back(touched_[node]);
+          preferred.push_back(k < n_touched_);
         }
         offsets.push_back(static_cast<Index>(terms.size()));
       }
     part_.unknowns.assign(ids.begin(), ids.end());
-    for (Index m = 0; m < whole_.layout.n_multipliers(); ++m)
-      part_.unknowns.push_back(whole_.layout.multiplier(m));
-    part_.layout = {Sharing(std::move(messages), "unknowns", ids, preferred), whole_.layout.n_multipliers(),
+    part_.unknowns.insert(part_.unknowns.end(), multipliers_.begin(), multipliers_.end());
+    part_.layout = {Sharing(messages_, "unknowns", ids, preferred), static_cast<Index>(multipliers_.size()),
                     std::move(offsets), std::move(terms)};
   }
 
   const FormProblem &whole_;
+  std::shared_ptr<MessageExchange> messages_;
   ProblemPart part_;
-  std::vector<Index> local_of_; ///< by node of the whole
-  std::vector<char> touched_;   ///< by node of the whole: whether a subdomain of this process has it
+  std::vector<Index> local_of_;    ///< by node of the whole
+  std::size_t n_touched_ = 0;      ///< nodes that a subdomain of this process has
+  std::vector<Index> multipliers_; ///< unknowns of the whole
 };
 
 /// A form of the whole problem on this process alone, and one of its part of the divided problem: they are given the
@@ -160,23 +179,25 @@ class DividedForm
 public:
   using Maker = std::function<std::unique_ptr<SystemForm>(const FormProblem &)>;
 
-  /// Collective. @param whole must stay, as `part`'s spans are taken
+  /// Collective. @param whole must stay
   DividedForm(const FormProblem &whole, Deal deal, const Maker &make_reference, const Maker &make_divided)
-    : messages_(std::make_shared<MessageExchange>(Communicator(MPI_COMM_WORLD)))
-    , part_(Division(whole, messages_, deal).take())
+    : whole_(whole)
+    , deal_(deal)
+    , messages_(std::make_shared<MessageExchange>(Communicator(MPI_COMM_WORLD)))
+    , part_(Division(whole, whole.patterns, messages_, deal).take())
     , reference_(make_reference(whole))
     , divided_(make_divided(part_))
   {
-    set_constraints(whole.patterns);
+    give_constraints(whole.patterns);
   }
 
-  /// @param patterns of the whole; as many multipliers as before
+  /// The part has another halo then. @param patterns of the whole; as many multipliers as before
   void set_constraints(const std::vector<ConstraintPattern> &patterns)
   {
-    part_.patterns = part_.local(patterns);
-    reference_->set_constraints(patterns, {rigid_unknowns()});
-    divided_->set_constraints(part_.patterns, {rigid_unknowns()});
-    prepare();
+    ProblemPart part = Division(whole_, patterns, messages_, deal_).take();
+    part.subdomains.swap(part_.subdomains); // the form keeps these
+    part_ = std::move(part);
+    give_constraints(patterns);
   }
   /// The bodies' stiffness has changed in the whole.
   void take_bodies(const FormProblem &whole)
@@ -207,10 +228,13 @@ public:
     for (SystemForm *form : forms())
       form->update_dense_block(0, springs);
   }
+  /// @param k of the whole
   void update_constraint(std::size_t k, const ElementBlocks &blocks)
   {
-    for (SystemForm *form : forms())
-      form->update_constraint(k, blocks.values());
+    reference_->update_constraint(k, blocks.values());
+    const auto &own = part_.whole_constraints;
+    if (const auto place = std::find(own.begin(), own.end(), k); place != own.end())
+      divided_->update_constraint(static_cast<std::size_t>(place - own.begin()), blocks.values());
   }
   /// @param modes over the displacement unknowns of the whole
   void set_held_modes(const std::vector<std::vector<double>> &modes)
@@ -256,6 +280,12 @@ public:
   }
 
 private:
+  void give_constraints(const std::vector<ConstraintPattern> &patterns)
+  {
+    reference_->set_constraints(patterns, {rigid_unknowns()});
+    divided_->set_constraints(part_.patterns, {rigid_unknowns()});
+    prepare();
+  }
   [[nodiscard]] std::array<SystemForm *, 2> forms() const { return {reference_.get(), divided_.get()}; }
   [[nodiscard]] std::vector<Index> rigid_unknowns() const
   {
@@ -264,20 +294,22 @@ private:
       out.push_back(i);
     return out;
   }
-  /// Bit by bit. Multipliers are the same everywhere.
+  /// Bit by bit. Reactions of held modes are the same everywhere.
   void expect_equal_copies(const std::vector<double> &x) const
   {
     const Sharing &sharing = part_.layout.sharing();
     const auto n = static_cast<std::ptrdiff_t>(sharing.size());
-    std::vector<double> owners(x.begin(), x.begin() + n), multipliers(x.begin() + n, x.end());
+    std::vector<double> owners(x.begin(), x.begin() + n);
     sharing.take_owners(owners);
     EXPECT_TRUE(std::equal(owners.begin(), owners.end(), x.begin())) << "copies of unknowns differ";
-    multipliers.insert(multipliers.end(), divided_->mode_reactions().begin(), divided_->mode_reactions().end());
-    std::vector<double> greatest = multipliers;
+    const std::vector<double> reactions(divided_->mode_reactions().begin(), divided_->mode_reactions().end());
+    std::vector<double> greatest = reactions;
     sharing.maximum_over_processes(greatest);
-    EXPECT_EQ(greatest, multipliers) << "copies of multipliers differ";
+    EXPECT_EQ(greatest, reactions) << "reactions of held modes differ";
   }
 
+  const FormProblem &whole_;
+  Deal deal_;
   std::shared_ptr<MessageExchange> messages_;
   ProblemPart part_;
   std::unique_ptr<SystemForm> reference_, divided_;

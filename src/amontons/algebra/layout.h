@@ -17,8 +17,9 @@ struct Term
 /// Numbering of unknowns. A nodal component (node * n_components + component) is one unknown (a free node), none (held)
 /// or a combination (a node of a rigid body). Unknowns run: displacement unknowns, then multipliers.
 ///
-/// Over several processes each has the nodes of its subdomains, and a layout of these. Nodes of constraints and of
-/// rigid bodies, their unknowns and the multipliers are on every process, with the same numbers: they come first.
+/// Over several processes each has a layout of its own nodes: those of its subdomains, those of rigid bodies (on every
+/// process), and last its halo, the other nodes that its constraints couple. Halo nodes and their unknowns are copies
+/// as any other, but never owned. The multipliers are those of the process's own constraints and have no copies.
 class Layout
 {
 public:

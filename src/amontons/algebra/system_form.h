@@ -14,7 +14,7 @@ namespace amontons
 struct ConstraintPattern
 {
   std::vector<Index> nodal;         ///< the impactor node's components first
-  std::array<Index, 3> multipliers; ///< positions among the multipliers
+  std::array<Index, 3> multipliers; ///< positions among the multipliers of this process
   int n_multipliers = 0;
 
   [[nodiscard]] int n_nodal() const { return static_cast<int>(nodal.size()); }
@@ -50,14 +50,19 @@ struct FormCounters
 /// Order of calls: set_constraints and set_held_modes when they change; prepare(); the values that changed since (all
 /// of them after prepare() returned true); solve(). Collective.
 ///
-/// Over several processes (Layout) each gives the stiffness of its own subdomains, their sum being K; constraints,
-/// dense blocks and their values are given by all, the same on all; held modes by each over the unknowns it has. A
-/// right side has its whole value on every copy of an unknown, a solution the same, bit by bit.
+/// Over several processes (Layout) each gives the stiffness of its own subdomains, their sum being K, and constraints
+/// of its own: a constraint is given by the owner of its impactor node and of the unknowns that this node has of its
+/// own (not a rigid body's), who has a copy of all its other nodes. A process may give none. Dense blocks are given by
+/// all, the same on all; held modes by each over the unknowns it has. A right side has its whole value on every copy of
+/// a displacement unknown, a solution the same, bit by bit; of multipliers each process has its own constraints'.
 class SystemForm
 {
 public:
   virtual ~SystemForm() = default;
 
+  /// A layout may have changed since the last call, with other copies of nodes that no subdomain here has: then held
+  /// modes have to be set anew too. FetiForm knows the first layout only.
+  /// @param constraints of this process
   /// @param dense_blocks sets of displacement unknowns that are coupled fully (rigid bodies)
   virtual void set_constraints(std::vector<ConstraintPattern> constraints,
                                std::vector<std::vector<Index>> dense_blocks) = 0;
@@ -69,6 +74,7 @@ public:
   virtual bool prepare() = 0;
   /// Takes the subdomains' present values (and the layout's present coefficients).
   virtual void update_subdomains() = 0;
+  /// @param k among the constraints of this process
   virtual void update_constraint(std::size_t k, const ConstraintValues &values) = 0;
   virtual void update_dense_block(std::size_t k, const Eigen::MatrixXd &values) = 0;
 
@@ -80,8 +86,9 @@ public:
   /// @throws NumericalFailure if the system is singular, or an iteration does not converge
   virtual void solve(std::span<const double> rhs, std::span<double> solution, double tolerance) = 0;
 
-  /// Reactions of the held modes in the last solution.
+  /// Reactions of the held modes in the last solution. The same on all processes.
   [[nodiscard]] virtual std::span<const double> mode_reactions() const = 0;
+  /// Of this process.
   [[nodiscard]] virtual const std::vector<ConstraintPattern> &constraints() const = 0;
   [[nodiscard]] virtual FormCounters counters() const = 0;
 };
