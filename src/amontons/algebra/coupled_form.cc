@@ -3,6 +3,7 @@
 #include "amontons/algebra/linear_solver_failure.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace amontons
 {
@@ -57,9 +58,6 @@ void CoupledForm::set_constraints(std::vector<ConstraintPattern> constraints,
 {
   constraints_ = std::move(constraints);
   dense_blocks_ = std::move(dense_blocks);
-  counts_constraint_.clear();
-  for (const ConstraintPattern &pattern : constraints_)
-    counts_constraint_.push_back(layout_.counts_here(pattern.nodal));
   counts_dense_block_.clear();
   for (const auto &block : dense_blocks_)
     counts_dense_block_.push_back(!block.empty() && layout_.sharing().is_own(block.front()));
@@ -88,8 +86,7 @@ void CoupledForm::build_pattern()
   for (std::size_t k = 0; k < constraints_.size(); ++k)
   {
     constraint_offsets_.push_back(rows.size());
-    if (counts_constraint_[k] != 0)
-      visit_constraint(constraints_[k], [&](Index i, Index j, double, int, int, int) { add(i, j); });
+    visit_constraint(constraints_[k], [&](Index i, Index j, double, int, int, int) { add(i, j); });
   }
   dense_offsets_.clear();
   for (std::size_t k = 0; k < dense_blocks_.size(); ++k)
@@ -115,7 +112,7 @@ void CoupledForm::build_pattern()
   positions_ = make_pattern(matrix_, layout_.n_unknowns() + static_cast<Index>(modes_.size()), rows, cols);
 }
 
-/// Rows of multipliers belong to who counts their constraint.
+/// Multipliers are numbered behind the unknowns, process after process, held modes behind these.
 void CoupledForm::share_rows()
 {
   const Sharing &unknowns = layout_.sharing();
@@ -124,19 +121,24 @@ void CoupledForm::share_rows()
     rows_ = Sharing(matrix_.n_rows());
     return;
   }
+  std::vector<double> n_multipliers(static_cast<std::size_t>(unknowns.n_processes()), 0.0);
+  n_multipliers[unknowns.rank()] = layout_.n_multipliers();
+  unknowns.sum_over_processes(n_multipliers);
+  const auto counted = [&](auto end)
+  { return static_cast<GlobalIndex>(std::accumulate(n_multipliers.begin(), end, 0.0)); };
+  const GlobalIndex first = unknowns.n_global() + counted(n_multipliers.begin() + unknowns.rank()),
+                    border = unknowns.n_global() + counted(n_multipliers.end());
   std::vector<GlobalIndex> ids;
   std::vector<char> preferred(static_cast<std::size_t>(matrix_.n_rows()), 0);
-  for (Index i = 0; i < matrix_.n_rows(); ++i)
-    if (i < unknowns.size())
-    {
-      ids.push_back(unknowns.number(i));
-      preferred[i] = unknowns.is_own(i);
-    }
-    else
-      ids.push_back(unknowns.n_global() + i - unknowns.size());
-  for (std::size_t k = 0; k < constraints_.size(); ++k)
-    for (int m = 0; m < constraints_[k].n_multipliers; ++m)
-      preferred[layout_.multiplier(constraints_[k].multipliers[m])] = counts_constraint_[k];
+  for (Index i = 0; i < unknowns.size(); ++i)
+  {
+    ids.push_back(unknowns.number(i));
+    preferred[i] = unknowns.is_own(i);
+  }
+  for (Index m = 0; m < layout_.n_multipliers(); ++m)
+    ids.push_back(first + m);
+  for (std::size_t m = 0; m < modes_.size(); ++m)
+    ids.push_back(border + static_cast<GlobalIndex>(m));
   rows_ = Sharing(unknowns.messages(), "linear system", ids, preferred);
 }
 
@@ -159,8 +161,6 @@ void CoupledForm::update_subdomains()
 
 void CoupledForm::update_constraint(std::size_t constraint, const ConstraintValues &v)
 {
-  if (counts_constraint_[constraint] == 0)
-    return;
   std::size_t k = constraint_offsets_[constraint];
   const std::array<const Eigen::Ref<const Eigen::MatrixXd> *, 4> blocks{
       &v.stiffness, &v.force_by_multiplier, &v.constraint_by_position, &v.constraint_by_multiplier};

@@ -13,8 +13,8 @@ namespace amontons
 /// The coupled form: displacements and multipliers in one indefinite matrix
 ///     [ K + K_c   B_f ]
 ///     [ B         D   ],
-/// optionally bordered by the held modes. Over several processes constraints, dense blocks and a mode's entries are
-/// counted by the owner of an unknown each, so that the matrix is the sum of what the processes have.
+/// optionally bordered by the held modes. Over several processes the matrix is the sum of what each adds: its
+/// subdomains and constraints, dense blocks and a mode's entries of unknowns that it owns.
 class CoupledForm : public SystemForm
 {
 public:
@@ -47,7 +47,7 @@ private:
   std::vector<ConstraintPattern> constraints_;
   std::vector<std::vector<Index>> dense_blocks_;
   std::vector<std::vector<double>> modes_;
-  std::vector<char> counts_constraint_, counts_dense_block_; ///< whether it is counted here
+  std::vector<char> counts_dense_block_; ///< whether it is counted here
   std::vector<std::size_t> constraint_offsets_, dense_offsets_;
   std::vector<double> entries_;  ///< in the order in which they are visited
   std::vector<Index> positions_; ///< of the entries among the matrix's values
