@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 namespace amontons
 {
@@ -122,6 +123,27 @@ void FetiKernel::restrict(std::span<const double> v, std::span<double> alpha) co
     }
 }
 
+void FetiKernel::restrict_row(std::span<const FetiRows::Entry> row, std::vector<FetiRows::Entry> &out) const
+{
+  out.clear();
+  Index last = -1;
+  for (const auto &[column, coefficient] : row)
+    if (const Index k = owner_[column]; k >= 0)
+    {
+      if (k != std::exchange(last, k)) // columns ascend, and owners with them
+        for (Index j = first_[k]; j < first_[k + 1]; ++j)
+          out.emplace_back(j, 0);
+      const double *basis = basis_.data() + basis_offset_[column];
+      for (auto entry = out.end() - size(k); entry != out.end(); ++entry)
+        entry->second += coefficient * *basis++;
+    }
+}
+
+Index FetiKernel::owner_of_unknown(Index unknown) const
+{
+  return static_cast<Index>(std::upper_bound(first_.begin(), first_.end(), unknown) - first_.begin()) - 1;
+}
+
 void FetiCoarse::set_pattern(const std::function<void(const std::function<void(std::span<const Index>)> &)> &couple,
                              const Sharing &processes)
 {
@@ -175,36 +197,22 @@ void FetiCoarse::copy_pattern(const FetiCoarse &other)
     factor_.analyze(pattern_);
 }
 
-void FetiCoarse::add(const FetiRows &rows, std::vector<double> &values, Index first) const
+void FetiCoarse::add(std::span<const FetiRows::Entry> g, std::span<double> values) const
 {
-  using Block = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
-  std::vector<std::pair<Index, Block>> blocks; // of one row of G
-  for (Index row = first; row < rows.size(); ++row)
+  for (std::size_t b = 0; b < g.size(); ++b)
   {
-    blocks.clear();
-    for (const auto &[column, coefficient] : rows[row])
-      if (const Index k = kernel_.owner(column); k >= 0)
-      {
-        const Eigen::Map<const Eigen::VectorXd> basis(kernel_.basis(column), kernel_.size(k));
-        if (blocks.empty() || blocks.back().first != k) // columns ascend, and owners with them
-          blocks.emplace_back(k, Block::Zero(kernel_.size(k)));
-        blocks.back().second += coefficient * basis;
-      }
-    for (const auto &[t, g_t] : blocks)
-      for (const auto &[s, g_s] : blocks)
-      {
-        if (s > t)
-          break;
-        const auto found =
-            std::lower_bound(neighbours_[t].begin(), neighbours_[t].end(), std::pair<Index, Index>(s, 0));
-        AMONTONS_ASSERT(found != neighbours_[t].end() && found->first == s);
-        for (Eigen::Index j = 0; j < g_t.size(); ++j)
-        {
-          double *column = values.data() + pattern_.offsets[kernel_.first(t) + j] + found->second;
-          for (Eigen::Index i = 0; i < (s == t ? j + 1 : g_s.size()); ++i)
-            column[i] += g_s[i] * g_t[j];
-        }
-      }
+    const auto [j, g_j] = g[b];
+    const auto &lower = neighbours_[kernel_.owner_of_unknown(j)];
+    double *column = values.data() + pattern_.offsets[j];
+    auto block = lower.begin();
+    for (std::size_t a = 0; a <= b; ++a)
+    {
+      const auto [i, g_i] = g[a];
+      while (block != lower.end() && i >= kernel_.first(block->first) + kernel_.size(block->first))
+        ++block;
+      AMONTONS_ASSERT(block != lower.end() && i >= kernel_.first(block->first));
+      column[block->second + i - kernel_.first(block->first)] += g_i * g_j;
+    }
   }
 }
 

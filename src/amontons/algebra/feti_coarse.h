@@ -32,6 +32,10 @@ public:
   void expand_add(std::span<const double> alpha, std::span<double> v) const;
   /// alpha = R^T v
   void restrict(std::span<const double> v, std::span<double> alpha) const;
+  /// The row b R of G for a row b of B. @param out overwritten, by coarse unknowns ascending
+  void restrict_row(std::span<const FetiRows::Entry> row, std::vector<FetiRows::Entry> &out) const;
+  /// The owner of a coarse unknown.
+  [[nodiscard]] Index owner_of_unknown(Index unknown) const;
 
 private:
   std::vector<Index> owner_; ///< [n_columns]
@@ -58,8 +62,8 @@ public:
                    const Sharing &processes);
   void copy_pattern(const FetiCoarse &other);
   [[nodiscard]] std::vector<double> zeros() const { return std::vector<double>(pattern_.rows.size(), 0.0); }
-  /// values += G^T G of these rows, from the `first` on.
-  void add(const FetiRows &rows, std::vector<double> &values, Index first = 0) const;
+  /// values += g g^T, g a row of G with its coarse unknowns ascending.
+  void add(std::span<const FetiRows::Entry> g, std::span<double> values) const;
   /// @param n_free dimensions of the kernel that is expected
   /// @return whether E has that kernel (n_free > 0); false if it is regular
   /// @throws NumericalFailure if E is singular and n_free = 0

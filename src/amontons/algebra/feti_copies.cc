@@ -35,6 +35,12 @@ void FetiCopies::count_subdomains(Index n_own)
     first_subdomain_.push_back(first_subdomain_.back() + static_cast<Index>(count));
 }
 
+Rank FetiCopies::rank_of(Index subdomain) const
+{
+  const auto next = std::upper_bound(first_subdomain_.begin(), first_subdomain_.end(), subdomain);
+  return static_cast<Rank>(next - first_subdomain_.begin()) - 1;
+}
+
 void FetiCopies::sort_by_node(const std::vector<Located> &copies)
 {
   std::fill(offsets_.begin(), offsets_.end(), 0);

@@ -8,8 +8,9 @@
 
 namespace amontons
 {
-/// Phases under which FETI's messages are counted: what is sent in every iteration, and the rest.
-constexpr const char *feti_phase = "feti", *feti_setup_phase = "feti_setup";
+/// Phases under which FETI's messages are counted: what is sent in every iteration, that for contact rows by itself,
+/// and the rest.
+constexpr const char *feti_phase = "feti", *feti_contact_phase = "feti_contact", *feti_setup_phase = "feti_setup";
 
 /// A node's copy in a subdomain, be it of this process or another.
 struct FetiCopy
@@ -34,6 +35,7 @@ public:
   [[nodiscard]] Index first_own_subdomain() const { return first_subdomain_[rank_]; }
   [[nodiscard]] Index n_own_subdomains() const { return first_subdomain_[rank_ + 1] - first_subdomain_[rank_]; }
   [[nodiscard]] bool is_own(const FetiCopy &copy) const { return is_of(copy, rank_); }
+  [[nodiscard]] Rank rank_of(Index subdomain) const;
 
   [[nodiscard]] std::span<const FetiCopy> of(Index node) const
   {

@@ -19,6 +19,7 @@ FetiDual::FetiDual(const Layout &layout, std::span<const SubdomainMatrix> subdom
   , processes_(options_.nodes.counted_as(feti_phase))
   , setup_processes_(options_.nodes.counted_as(feti_setup_phase))
   , interface_(std::make_unique<FetiInterface>(layout, subdomains, options_))
+  , contact_(*interface_, kernel_, setup_processes_)
 {
   AMONTONS_ASSERT(processes_.is_distributed() == layout.sharing().is_distributed());
   factors_.reserve(subdomains.size());
@@ -67,44 +68,53 @@ std::vector<double> FetiDual::kernel_loads(std::span<const double> condensed) co
   return out;
 }
 
-std::vector<double> FetiDual::rows_of(std::span<const double> v, bool forces) const
+std::vector<double> FetiDual::part_of_rows(std::span<const double> v, bool forces) const
 {
-  const FetiRows &contact = forces ? contact_.forces : contact_.rows;
+  const FetiRows &contact = contact_.rows(forces);
   std::vector<double> out(static_cast<std::size_t>(glue_.size() + contact.size()));
   glue_.multiply(v, out.data());
   contact.multiply(v, out.data() + glue_.size());
   return out;
 }
 
-FetiDual::Jump FetiDual::jump(std::span<const double> v, std::span<const double> row_gaps) const
+std::vector<double> FetiDual::rows_of_motions(std::span<const double> alpha, bool forces) const
 {
-  Jump out{rows_of(v), {}};
-  const auto n_glue = static_cast<std::size_t>(glue_.size()), n_rows = out.rows.size();
-  if (counts_common())
-    for (std::size_t i = 0; i < row_gaps.size(); ++i)
-      out.rows[n_glue + i] -= row_scale_[i] * row_gaps[i];
-  // G^T of the parts first, so that it is summed together with the contact rows.
-  std::vector<double> pulled(static_cast<std::size_t>(n_columns()), 0.0);
-  glue_.multiply_transposed_add(out.rows.data(), pulled);
-  contact_.rows.multiply_transposed_add(out.rows.data() + n_glue, pulled);
-  out.rows.resize(n_rows + static_cast<std::size_t>(kernel_.size()));
-  const std::span<double> rows(out.rows);
-  kernel_.restrict(pulled, rows.subspan(n_rows));
-  processes_.sum_over_processes(rows.subspan(n_glue));
-  interface_->glue_sharing().sum(rows.first(n_glue));
-  out.loads.assign(out.rows.begin() + static_cast<std::ptrdiff_t>(n_rows), out.rows.end());
-  out.rows.resize(n_rows);
+  std::vector<double> v(static_cast<std::size_t>(n_columns()), 0.0);
+  kernel_.expand_add(alpha, v);
+  std::vector<double> out(static_cast<std::size_t>(glue_.size() + contact_.size()));
+  glue_.multiply(v, out.data());
+  contact_.motions(forces).multiply(alpha, out.data() + glue_.size());
   return out;
 }
 
-/// Zero on columns of other processes' subdomains; on rigid columns each process's part, on springs the first one's.
+void FetiDual::sum_rows(std::vector<double> &parts) const
+{
+  interface_->glue_sharing().sum(std::span(parts).first(static_cast<std::size_t>(glue_.size())));
+  contact_.sum(contact_part(parts));
+}
+
+FetiDual::Jump FetiDual::jump(std::span<const double> v, std::span<const double> row_gaps) const
+{
+  Jump out{part_of_rows(v, false), std::vector<double>(static_cast<std::size_t>(kernel_.size()))};
+  const std::span<double> contact = contact_part(out.rows);
+  for (std::size_t i = 0; i < row_gaps.size(); ++i) // own rows come first
+    contact[i] -= contact_.row_scale()[i] * row_gaps[i];
+  // G^T of the parts, so that only loads have to be summed over all processes.
+  std::vector<double> pulled(static_cast<std::size_t>(n_columns()), 0.0);
+  glue_.multiply_transposed_add(out.rows.data(), pulled);
+  kernel_.restrict(pulled, out.loads);
+  contact_.motions(false).multiply_transposed_add(contact.data(), out.loads);
+  processes_.sum_over_processes(out.loads);
+  sum_rows(out.rows);
+  return out;
+}
+
+/// Zero on columns of other processes' subdomains; on rigid columns each process's part.
 std::vector<double> FetiDual::pull(std::span<const double> multipliers, bool forces) const
 {
   std::vector<double> out(static_cast<std::size_t>(n_columns()), 0.0);
   glue_.multiply_transposed_add(multipliers.data(), out);
-  const std::size_t n_contact = counts_common() ? out.size() : interface_->end_of_own_columns();
-  (forces ? contact_.forces : contact_.rows)
-      .multiply_transposed_add(multipliers.data() + glue_.size(), std::span(out).first(n_contact));
+  contact_.rows(forces).multiply_transposed_add(multipliers.data() + glue_.size(), out);
   std::fill_n(out.begin(), interface_->first_own_column(), 0.0);
   std::fill(out.begin() + interface_->end_of_own_columns(), out.begin() + interface_->first_rigid_column(), 0.0);
   return out;
@@ -134,16 +144,14 @@ std::vector<double> FetiDual::flexibility(std::span<const double> v) const
   std::vector<double> out(v.size(), 0.0);
   for (std::size_t s = 0; s < factors_.size(); ++s)
     factors_[s].apply_flexibility(v.data() + interface_->first_column(s), out.data() + interface_->first_column(s));
-  for (std::size_t k = 0; k < contact_.springs.size(); ++k)
-    out[interface_->n_columns() + k] = v[interface_->n_columns() + k] / contact_.springs[k];
+  for (std::size_t k = 0; k < contact_.springs().size(); ++k)
+    out[interface_->n_columns() + k] = v[interface_->n_columns() + k] / contact_.springs()[k];
   return out;
 }
 
 std::vector<double> FetiDual::precondition(std::vector<double> r)
 {
-  const auto contact_part = [&](std::vector<double> &x) { return std::span(x).subspan(glue_.size()); };
-  if (scaling_.factor)
-    scaling_.factor->solve(contact_part(r));
+  contact_.apply_scaling(contact_part(r), false);
   std::vector<double> v = pull(r, false), forces(v.size(), 0.0);
   for (std::size_t i = 0; i < v.size(); ++i)
     v[i] *= inverse_stiffness_[i];
@@ -156,25 +164,20 @@ std::vector<double> FetiDual::precondition(std::vector<double> r)
     else
       factors_[s].apply_stiffness(x, y);
   }
-  for (std::size_t k = 0; k < contact_.springs.size(); ++k)
-    forces[interface_->n_columns() + k] = v[interface_->n_columns() + k] * contact_.springs[k];
+  for (std::size_t k = 0; k < contact_.springs().size(); ++k)
+    forces[interface_->n_columns() + k] = v[interface_->n_columns() + k] * contact_.springs()[k];
   for (std::size_t i = 0; i < v.size(); ++i)
     forces[i] *= inverse_stiffness_[i];
-  std::vector<double> z = rows_of(forces, true);
-  interface_->glue_sharing().sum(std::span(z).first(glue_.size()));
-  if (contact_.rows.size() > 0)
-    processes_.sum_over_processes(contact_part(z));
-  if (Scaling &scaling = contact_.symmetric ? scaling_ : scaling_forces_; scaling.factor)
-    scaling.factor->solve(contact_part(z));
+  std::vector<double> z = part_of_rows(forces, true);
+  sum_rows(z);
+  contact_.apply_scaling(contact_part(z), true);
   return z;
 }
 
 void FetiDual::project(std::vector<double> &x, std::vector<double> loads, bool forces)
 {
-  std::vector<double> v(static_cast<std::size_t>(n_columns()), 0.0);
   coarse(forces).solve(loads);
-  kernel_.expand_add(loads, v);
-  const std::vector<double> taken = rows_of(v, forces);
+  const std::vector<double> taken = rows_of_motions(loads, forces);
   for (std::size_t i = 0; i < x.size(); ++i)
     x[i] -= taken[i];
 }
@@ -205,10 +208,9 @@ FetiStep FetiDual::solve_regular(std::span<const double> forces, std::span<const
                                  double target)
 {
   const std::vector<double> load = condense(forces);
-  std::vector<double> alpha = kernel_loads(load), v(load.size(), 0.0);
+  std::vector<double> alpha = kernel_loads(load), v;
   coarse(true).solve(alpha);
-  kernel_.expand_add(alpha, v);
-  std::vector<double> multipliers = rows_of(v, true);
+  std::vector<double> multipliers = rows_of_motions(alpha, true);
 
   const auto residual = [&](std::vector<double> &u)
   {
@@ -230,7 +232,7 @@ FetiStep FetiDual::solve_regular(std::span<const double> forces, std::span<const
   kernel_.expand_add(alpha, v);
   FetiStep step{expand(v), {}, {}};
   for (std::size_t i = 0; i < row_gaps.size(); ++i)
-    step.rows.push_back(row_scale_[i] * multipliers[glue_.size() + i]);
+    step.rows.push_back(contact_.row_scale()[i] * multipliers[glue_.size() + i]);
   return step;
 }
 } // namespace amontons

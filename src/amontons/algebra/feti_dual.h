@@ -1,29 +1,21 @@
 #pragma once
 #include "amontons/algebra/feti_coarse.h"
+#include "amontons/algebra/feti_contact.h"
 #include "amontons/algebra/feti_directions.h"
 #include "amontons/algebra/feti_interface.h"
 #include "amontons/algebra/subdomain_factor.h"
 
 #include <memory>
 #include <optional>
+#include <set>
 
 namespace amontons
 {
-/// Rows of B beyond the gluing: contact, and small stiffnesses taken as springs of their own.
-struct FetiContactRows
-{
-  FetiRows rows, forces;       ///< of B and of B_f; columns of FetiInterface, then one column per spring
-  std::vector<double> springs; ///< stiffness of each spring, of either sign
-  bool symmetric = true;       ///< forces equal rows
-
-  friend bool operator==(const FetiContactRows &, const FetiContactRows &) = default;
-};
-
 /// What a solution gives.
 struct FetiStep
 {
   std::vector<double> unknowns; ///< [n_displacement_unknowns]
-  std::vector<double> rows;     ///< multiplier of each contact row
+  std::vector<double> rows;     ///< multiplier of each contact row of this process
   std::vector<double> modes;    ///< reaction of each held mode
 };
 
@@ -35,14 +27,16 @@ struct FetiStep
 /// G^T and the multipliers by I - G_f (G_f^T G_f)^-1 G_f^T, so that u exists and alpha drops out; both coarse matrices
 /// are symmetric positive definite, with friction too. Rows are scaled such that B D^-1 B^T, D the boundary's diagonal,
 /// is the identity but for contact rows among each other; the preconditioner is
-///     (B_f D^-1 B_f^T)^-1 B_f D^-1 S D^-1 B^T (B D^-1 B^T)^-1.
+///     (B_f D^-1 B_f^T)^-1 B_f D^-1 S D^-1 B^T (B D^-1 B^T)^-1,
+/// the inverses being polynomials (FetiScaling).
 /// A change of contact rows touches no subdomain. Held modes are dense rows over the displacement unknowns.
 ///
 /// Over several processes each works on its own subdomains. A vector over the rows has, on each process, the gluing
-/// rows that touch its subdomains and all contact rows, copies equal bit by bit; contact rows and springs are given by
-/// all alike. An iteration costs two exchanges of gluing rows with the neighbours, and six reductions: one of the
-/// contact rows and the coarse problem's right side together, one of that right side and a norm, one of the contact
-/// rows, three of inner products. The coarse problem is solved by every process. All calls are collective.
+/// and contact rows that touch its subdomains and the contact rows that it gives, copies equal bit by bit. An iteration
+/// costs two exchanges of gluing rows with the neighbours, two of contact rows and one more for each degree of the two
+/// scalings with the processes on the other side of the contact, and five reductions: one of the coarse problem's right
+/// side, one of it and a norm, three of inner products. The coarse problem is solved by every process. All calls are
+/// collective.
 class FetiDual
 {
 public:
@@ -54,35 +48,33 @@ public:
 
   /// Factorises the subdomains' present values.
   void update_bodies();
-  /// @param nodal_sets nodal components that a contact row may couple, whatever the status
+  /// @param nodal_sets nodal components that a contact row of this process may couple, whatever the status
   /// @param rigid_sets rigid unknowns that one may
   void set_couplings(const std::vector<std::span<const Index>> &nodal_sets,
                      const std::vector<std::span<const Index>> &rigid_sets);
-  /// @param modes each over the displacement unknowns
+  /// @param contact of this process @param modes each over the displacement unknowns
   void set_rows(FetiContactRows contact, const std::vector<std::vector<double>> &modes);
 
-  /// @param forces [n_displacement_unknowns] @param gaps of the contact rows @param motions of the held modes
+  /// @param forces [n_displacement_unknowns] @param gaps of the contact rows of this process @param motions of the held
+  /// modes
   /// @param reduction the residual forces' norm over what it is at the start, where the iteration may stop
   /// @param target or the norm itself
   [[nodiscard]] FetiStep solve(std::span<const double> forces, std::span<const double> gaps,
                                std::span<const double> motions, double reduction, double target);
 
-  [[nodiscard]] Index n_contact_rows() const { return contact_.rows.size(); }
+  /// Of this process.
+  [[nodiscard]] Index n_contact_rows() const { return contact_.n_own(); }
   [[nodiscard]] std::int64_t n_factorizations() const { return n_factorizations_; }
   [[nodiscard]] std::int64_t n_setups() const { return n_setups_; }
   [[nodiscard]] std::int64_t n_iterations() const { return n_iterations_; }
 
 private:
-  /// (B D^-1 B^T)^-1 among contact rows.
-  struct Scaling
-  {
-    std::optional<SparseCholesky> factor;
-  };
   void factorize_subdomains();
   void build_kernel();
-  void build_contact_problem(Index n_modes);
-  void build_scaling(const FetiRows &rows, Scaling &scaling);
-  void scale_rows();
+  void find_contact_entries(const std::set<std::vector<Index>> &couplings);
+  [[nodiscard]] std::vector<double> gram(bool forces) const;
+  void factorize_coarse(Index n_modes);
+  void forget_given();
   void set_modes(const std::vector<std::vector<double>> &modes);
   [[nodiscard]] Eigen::MatrixXd mode_products(const std::vector<std::span<const double>> &vectors) const;
   [[nodiscard]] FetiStep solve_regular(std::span<const double> forces, std::span<const double> gaps, double reduction,
@@ -96,8 +88,12 @@ private:
   [[nodiscard]] std::vector<double> condense(std::span<const double> forces);
   [[nodiscard]] std::vector<double> expand(std::span<const double> boundary);
   [[nodiscard]] std::vector<double> kernel_loads(std::span<const double> condensed) const;
-  /// B v, B_f v with `forces`: on all processes where v is known on all columns, else the part of those it is known on.
-  [[nodiscard]] std::vector<double> rows_of(std::span<const double> v, bool forces = false) const;
+  /// The part of B v, or B_f v, that comes from own columns; v is zero on others.
+  [[nodiscard]] std::vector<double> part_of_rows(std::span<const double> v, bool forces) const;
+  /// G alpha, or G_f alpha.
+  [[nodiscard]] std::vector<double> rows_of_motions(std::span<const double> alpha, bool forces) const;
+  /// Sums the parts of all processes.
+  void sum_rows(std::vector<double> &parts) const;
   /// B v - gaps of the contact rows, and G^T of it, for v known on own columns.
   struct Jump
   {
@@ -117,10 +113,14 @@ private:
   [[nodiscard]] std::vector<double> precondition(std::vector<double> r);
   /// x - G (G^T G)^-1 G^T x, or with G_f. @param loads G^T x
   void project(std::vector<double> &x, std::vector<double> loads, bool forces);
-  [[nodiscard]] FetiCoarse &coarse(bool forces) { return forces && !contact_.symmetric ? *coarse_forces_ : *coarse_; }
-  [[nodiscard]] Index n_columns() const
+  [[nodiscard]] FetiCoarse &coarse(bool forces)
   {
-    return interface_->n_columns() + static_cast<Index>(contact_.springs.size());
+    return forces && !contact_.is_symmetric() ? *coarse_forces_ : *coarse_;
+  }
+  [[nodiscard]] Index n_columns() const { return contact_.n_columns(); }
+  [[nodiscard]] std::span<double> contact_part(std::vector<double> &x) const
+  {
+    return std::span(x).subspan(static_cast<std::size_t>(glue_.size()));
   }
   /// What all processes know is counted by the first.
   [[nodiscard]] bool counts_common() const { return processes_.rank() == 0; }
@@ -134,12 +134,13 @@ private:
   std::vector<SubdomainFactor> factors_;
   FetiKernel kernel_;
   std::optional<FetiCoarse> coarse_, coarse_forces_;
-  std::vector<double> glue_gram_; ///< the gluing rows' part of G^T G
+  std::vector<double> glue_gram_;      ///< the gluing rows' part of G^T G
+  std::vector<Index> contact_entries_; ///< of G^T G, those that contact rows may change
   FetiRows glue_;
-  FetiContactRows given_, contact_; ///< as given, and scaled
-  std::vector<double> row_scale_, inverse_stiffness_;
+  FetiContactRows given_;
+  FetiContact contact_;
+  std::vector<double> inverse_stiffness_;
   double mean_inverse_stiffness_ = 0;
-  Scaling scaling_, scaling_forces_;
   std::vector<std::vector<double>> modes_, mode_loads_; ///< mode_loads_: R^T of the condensed modes
   std::vector<std::vector<double>> free_motions_;       ///< over the unknowns
   bool singular_ = false;

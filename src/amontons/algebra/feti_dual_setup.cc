@@ -23,7 +23,7 @@ void FetiDual::update_bodies()
   for (Index column = first; column < end; ++column)
     mean_inverse_stiffness_ += inverse_stiffness_[column] / (n + interface_->n_rigid());
   setup_processes_.sum_over_processes({&mean_inverse_stiffness_, 1});
-  given_ = contact_ = {};
+  forget_given();
 }
 
 void FetiDual::factorize_subdomains()
@@ -80,104 +80,79 @@ void FetiDual::set_couplings(const std::vector<std::span<const Index>> &nodal_se
 {
   coarse_.emplace(session_, kernel_);
   coarse_forces_.reset();
-  const auto couple = [&](const std::function<void(std::span<const Index>)> &take)
+  std::set<std::vector<Index>> couplings; // of contact, by owner
+  std::vector<Index> owners;
+  const auto owners_of = [&](auto &&entries)
   {
-    std::vector<Index> owners;
-    const auto finish = [&](auto &&entries)
-    {
-      owners.clear();
-      for (const auto &[column, coefficient] : entries)
-        if (const Index owner = kernel_.owner(column); owner >= 0)
-          owners.push_back(owner);
-      std::sort(owners.begin(), owners.end());
-      owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
-      take(owners);
-    };
-    for (Index row = 0; row < glue_.size(); ++row)
-      finish(glue_[row]);
-    std::vector<FetiRows::Entry> entries;
-    for (const std::span<const Index> nodal : nodal_sets)
-    {
-      entries.clear();
-      for (const Index i : nodal)
-        interface_->append(i, 1, entries);
-      finish(entries);
-    }
-    for (const std::span<const Index> unknowns : rigid_sets)
-    {
-      entries.clear();
-      for (const Index unknown : unknowns)
-        entries.emplace_back(interface_->rigid_column(unknown), 1);
-      finish(entries);
-    }
+    owners.clear();
+    for (const auto &[column, coefficient] : entries)
+      if (const Index owner = kernel_.owner(column); owner >= 0)
+        owners.push_back(owner);
+    std::sort(owners.begin(), owners.end());
+    owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
+    return owners;
   };
-  coarse_->set_pattern(couple, setup_processes_);
-  glue_gram_ = coarse_->zeros();
-  coarse_->add(glue_, glue_gram_, interface_->n_glue_rows_of_others());
-  setup_processes_.sum_over_processes(glue_gram_);
-  given_ = {};
-  given_.symmetric = false; // differs from whatever comes
-}
-
-void FetiDual::build_scaling(const FetiRows &rows, Scaling &scaling)
-{
-  scaling.factor.reset();
-  if (rows.size() == 0)
-    return;
-  std::vector<std::vector<std::pair<Index, double>>> rows_of(static_cast<std::size_t>(n_columns()));
-  SymmetricPattern pattern;
-  std::vector<double> values, sum(static_cast<std::size_t>(rows.size()), 0.0);
-  std::vector<Index> touched;
-  for (Index j = 0; j < rows.size(); ++j)
+  std::vector<FetiRows::Entry> entries;
+  for (const std::span<const Index> nodal : nodal_sets)
   {
-    touched.assign(1, j);
-    for (const auto &[column, value] : rows[j])
-    {
-      rows_of[column].emplace_back(j, value);
-      for (const auto &[i, other] : rows_of[column])
+    entries.clear();
+    for (const Index i : nodal)
+      interface_->append(i, 1, entries);
+    couplings.insert(owners_of(entries));
+  }
+  for (const std::span<const Index> unknowns : rigid_sets)
+  {
+    entries.clear();
+    for (const Index unknown : unknowns)
+      entries.emplace_back(interface_->rigid_column(unknown), 1);
+    couplings.insert(owners_of(entries));
+  }
+  coarse_->set_pattern(
+      [&](const std::function<void(std::span<const Index>)> &take)
       {
-        if (sum[i] == 0 && i != j)
-          touched.push_back(i);
-        sum[i] += value * other * inverse_stiffness_[column];
-      }
-    }
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-    for (const Index i : touched)
-    {
-      pattern.rows.push_back(i);
-      // Rows that only rigid motions tell apart leave the sum semidefinite.
-      values.push_back(i == j ? (1 + 1e-6) * sum[i] : sum[i]);
-      sum[i] = 0;
-    }
-    pattern.offsets.push_back(static_cast<Index>(pattern.rows.size()));
+        for (Index row = 0; row < glue_.size(); ++row)
+          take(owners_of(glue_[row]));
+        for (const std::vector<Index> &coupled : couplings)
+          take(coupled);
+      },
+      setup_processes_);
+  find_contact_entries(couplings);
+  glue_gram_ = coarse_->zeros();
+  std::vector<FetiRows::Entry> g;
+  for (Index row = interface_->n_glue_rows_of_others(); row < glue_.size(); ++row)
+  {
+    kernel_.restrict_row(glue_[row], g);
+    coarse_->add(g, glue_gram_);
   }
-  scaling.factor.emplace(session_);
-  scaling.factor->analyze(pattern);
-  if (!scaling.factor->factorize(pattern, values))
-    throw NumericalFailure("the tangent matrix is singular: contact rows depend on each other");
+  setup_processes_.sum_over_processes(glue_gram_);
+  forget_given();
 }
 
-/// Gives every contact row length one in the inner product of D^-1.
-void FetiDual::scale_rows()
+/// @param couplings owners that contact rows of this process may couple
+void FetiDual::find_contact_entries(const std::set<std::vector<Index>> &couplings)
 {
-  inverse_stiffness_.resize(static_cast<std::size_t>(interface_->n_columns()));
-  for (const double spring : contact_.springs)
-    inverse_stiffness_.push_back(1 / std::abs(spring));
-  row_scale_.clear();
-  for (Index row = 0; row < contact_.rows.size(); ++row)
+  std::vector<double> touched = coarse_->zeros();
+  std::vector<FetiRows::Entry> g;
+  for (const std::vector<Index> &owners : couplings)
   {
-    double length2 = 0, plain = 0;
-    for (const auto &[column, value] : contact_.rows[row])
-    {
-      length2 += value * value * inverse_stiffness_[column];
-      plain += value * value * mean_inverse_stiffness_;
-    }
-    const double scale = 1 / std::sqrt(length2 > 0 ? length2 : plain);
-    row_scale_.push_back(scale);
-    contact_.rows.scale(row, scale);
-    contact_.forces.scale(row, scale);
+    g.clear();
+    for (const Index owner : owners)
+      for (Index k = 0; k < kernel_.size(owner); ++k)
+        g.emplace_back(kernel_.first(owner) + k, 1);
+    coarse_->add(g, touched);
   }
+  setup_processes_.sum_over_processes(touched);
+  contact_entries_.clear();
+  for (std::size_t k = 0; k < touched.size(); ++k)
+    if (touched[k] > 0)
+      contact_entries_.push_back(static_cast<Index>(k));
+}
+
+/// What comes next differs from what was given.
+void FetiDual::forget_given()
+{
+  given_ = {};
+  given_.symmetric = false;
 }
 
 void FetiDual::set_rows(FetiContactRows contact, const std::vector<std::vector<double>> &modes)
@@ -185,35 +160,50 @@ void FetiDual::set_rows(FetiContactRows contact, const std::vector<std::vector<d
   if (setup_processes_.true_on_all(contact == given_ && modes == modes_))
     return;
   ++n_setups_;
-  given_ = {};
-  given_.symmetric = false; // differs from whatever comes, should this fail
-  contact_ = contact;
+  forget_given(); // should this fail
+  inverse_stiffness_.resize(static_cast<std::size_t>(interface_->n_columns()));
+  for (const double spring : contact.springs)
+    inverse_stiffness_.push_back(1 / std::abs(spring));
+  kernel_.drop_columns(interface_->n_columns());
+  kernel_.add_columns(static_cast<Index>(contact.springs.size()));
+  contact_.set(contact, inverse_stiffness_, mean_inverse_stiffness_);
   const Index of_others = interface_->n_glue_rows_of_others();
-  directions_.start(glue_.size() + contact_.rows.size(), of_others,
-                    glue_.size() - of_others + (counts_common() ? contact_.rows.size() : 0), processes_);
-  agree_on_failures(setup_processes_, [&] { build_contact_problem(static_cast<Index>(modes.size())); });
+  directions_.start(glue_.size() + contact_.size(), of_others, glue_.size() - of_others + contact_.n_own(), processes_);
+  factorize_coarse(static_cast<Index>(modes.size()));
   set_modes(modes);
   given_ = std::move(contact);
 }
 
-/// What depends on the contact rows, which all processes know: each for itself.
-void FetiDual::build_contact_problem(Index n_modes)
+/// G^T G, or G_f^T G_f, of all processes' rows.
+std::vector<double> FetiDual::gram(bool forces) const
 {
-  kernel_.drop_columns(interface_->n_columns());
-  kernel_.add_columns(static_cast<Index>(contact_.springs.size()));
-  scale_rows();
-  build_scaling(contact_.rows, scaling_);
-  std::vector<double> values = glue_gram_;
-  coarse_->add(contact_.rows, values);
-  singular_ = coarse_->factorize(std::move(values), n_modes);
-  if (contact_.symmetric)
+  std::vector<double> values = coarse_->zeros(), of_contact;
+  for (Index row = 0; row < contact_.n_own(); ++row)
+    coarse_->add(contact_.motions(forces)[row], values);
+  for (const Index k : contact_entries_)
+    of_contact.push_back(values[k]);
+  setup_processes_.sum_over_processes(of_contact);
+  values = glue_gram_;
+  for (std::size_t k = 0; k < of_contact.size(); ++k)
+    values[contact_entries_[k]] += of_contact[k];
+  return values;
+}
+
+void FetiDual::factorize_coarse(Index n_modes)
+{
+  std::vector<double> values = gram(false);
+  agree_on_failures(setup_processes_, [&] { singular_ = coarse_->factorize(std::move(values), n_modes); });
+  if (contact_.is_symmetric())
     return;
-  build_scaling(contact_.forces, scaling_forces_);
   if (!coarse_forces_)
     coarse_forces_.emplace(session_, kernel_).copy_pattern(*coarse_);
-  values = glue_gram_;
-  coarse_forces_->add(contact_.forces, values);
-  if (coarse_forces_->factorize(std::move(values), n_modes) != singular_)
-    throw NumericalFailure("the tangent matrix is singular: friction holds a motion that contact does not, or turns");
+  values = gram(true);
+  agree_on_failures(setup_processes_,
+                    [&]
+                    {
+                      if (coarse_forces_->factorize(std::move(values), n_modes) != singular_)
+                        throw NumericalFailure(
+                            "the tangent matrix is singular: friction holds a motion that contact does not, or turns");
+                    });
 }
 } // namespace amontons

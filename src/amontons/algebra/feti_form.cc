@@ -42,7 +42,7 @@ void FetiForm::set_constraints(std::vector<ConstraintPattern> constraints, std::
     for (int k = 0; k < pattern.n_nodal(); ++k)
       if (const Index node = pattern.nodal[k] / dim; !dual_->interface().on_boundary(node))
         options.contact_nodes.push_back(node);
-  if (options.contact_nodes.size() == n_known)
+  if (options.nodes.true_on_all(options.contact_nodes.size() == n_known))
     return;
   n_earlier_factorizations_ += dual_->n_factorizations();
   dual_ = std::make_unique<FetiDual>(layout_, subdomains_, std::move(options));
@@ -90,6 +90,7 @@ void FetiForm::append_row(FetiContactRows &out, const ConstraintPattern &pattern
   }
   out.rows.push_back(entries[0]);
   out.forces.push_back(entries[1]);
+  out.impactors.push_back(pattern.nodal[0] / dual_->interface().dim());
 }
 
 void FetiForm::append_dense_block(FetiContactRows &out, std::size_t block) const
@@ -112,10 +113,12 @@ void FetiForm::append_dense_block(FetiContactRows &out, std::size_t block) const
       (forces ? out.forces : out.rows).push_back(entries);
     }
     out.springs.push_back(parts.weight[j]);
+    out.impactors.push_back(-1);
   }
 }
 
-/// First the proper rows of all constraints, then springs.
+/// First the proper rows of all constraints of this process, then springs. Those of dense blocks, which all processes
+/// are given, are the first one's.
 FetiContactRows FetiForm::contact_rows() const
 {
   FetiContactRows out;
@@ -133,8 +136,9 @@ FetiContactRows FetiForm::contact_rows() const
       for (Eigen::Index j = 0; j < parts.weight.size(); ++j)
         append_row(out, constraints_[k], parts.right.col(j), parts.left.col(j), parts.weight[j]);
     }
-  for (std::size_t block = 0; block < dense_blocks_.size(); ++block)
-    append_dense_block(out, block);
+  if (layout_.sharing().rank() == 0)
+    for (std::size_t block = 0; block < dense_blocks_.size(); ++block)
+      append_dense_block(out, block);
   return out;
 }
 
@@ -151,7 +155,9 @@ void FetiForm::factorize()
     ++n_pattern_builds_;
   }
   bodies_changed_ = pattern_changed_ = false;
-  dual_->set_rows(contact_rows(), modes_);
+  FetiContactRows rows;
+  agree_on_failures(layout_.sharing(), [&] { rows = contact_rows(); });
+  dual_->set_rows(std::move(rows), modes_);
 }
 
 std::vector<double> FetiForm::nodal(std::span<const double> unknowns) const
@@ -177,12 +183,24 @@ void FetiForm::measure(Residual &r) const
   for (std::size_t i = 0; i < r.forces.size(); ++i)
     if (layout_.sharing().is_own(static_cast<Index>(i)))
       sum += r.forces[i] * r.forces[i];
-  layout_.sharing().sum_over_processes({&sum, 1});
   std::size_t i = 0;
   for (std::size_t k = 0; k < constraints_.size(); ++k)
     for (int row = 0; row < reduced_[k].n_rows(); ++row)
       sum += std::pow(augmentation_[k] * r.gaps[i++], 2);
+  layout_.sharing().sum_over_processes({&sum, 1});
   r.norm = std::sqrt(sum);
+}
+
+/// `whole` forces, the same on all copies, and those on own nodes' copies that only this process knows. Collective.
+std::vector<double> FetiForm::sum_forces(std::span<const double> whole, std::span<const double> nodal_parts) const
+{
+  std::vector<double> out(static_cast<std::size_t>(layout_.n_displacement_unknowns()), 0.0);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (layout_.sharing().is_own(static_cast<Index>(i)))
+      out[i] = whole[i];
+  layout_.gather(nodal_parts, out);
+  layout_.sharing().sum(out);
+  return out;
 }
 
 FetiForm::Residual FetiForm::reduced_right_side(std::span<const double> rhs) const
@@ -200,8 +218,7 @@ FetiForm::Residual FetiForm::reduced_right_side(std::span<const double> rhs) con
       nodal_forces[pattern.nodal[i]] -= force[i];
     out.gaps.insert(out.gaps.end(), gaps.data(), gaps.data() + gaps.size());
   }
-  out.forces.assign(rhs.begin(), rhs.begin() + layout_.n_displacement_unknowns());
-  layout_.gather(nodal_forces, out.forces);
+  out.forces = sum_forces(rhs, nodal_forces);
   out.motions.assign(modes_.size(), 0.0);
   measure(out);
   const auto n_rows = static_cast<std::size_t>(dual_->n_contact_rows());
@@ -237,13 +254,10 @@ FetiForm::Residual FetiForm::residual(const Residual &right_side, const FetiStep
   std::vector<double> nodal_forces(displacement.size(), 0.0);
   for (const SubdomainMatrix &matrix : subdomains_)
     multiply_add(matrix, displacement, nodal_forces);
-  const Sharing &nodes = dual_->options().nodes;
-  const int dim = dual_->interface().dim();
-  nodes.sum(std::span(nodal_forces).first(static_cast<std::size_t>(nodes.size()) * dim), dim);
   for (double &force : nodal_forces)
     force = -force;
   subtract_constraints(displacement, step, nodal_forces, out);
-  layout_.gather(nodal_forces, out.forces);
+  out.forces = sum_forces(right_side.forces, nodal_forces);
   for (std::size_t b = 0; b < dense_blocks_.size(); ++b)
     for (std::size_t i = 0; i < dense_blocks_[b].size() && dense_values_[b].size() > 0; ++i)
       for (std::size_t j = 0; j < dense_blocks_[b].size(); ++j)
@@ -265,7 +279,7 @@ FetiForm::Residual FetiForm::residual(const Residual &right_side, const FetiStep
   return out;
 }
 
-/// All multipliers from those of the rows.
+/// The multipliers of this process's constraints from those of the rows.
 void FetiForm::recover(std::span<const double> rhs, const FetiStep &step, std::span<double> solution) const
 {
   std::copy(step.unknowns.begin(), step.unknowns.end(), solution.begin());

@@ -42,6 +42,8 @@ private:
   void append_row(FetiContactRows &out, const ConstraintPattern &pattern, const Eigen::VectorXd &row,
                   const Eigen::VectorXd &force, double spring) const;
   void append_dense_block(FetiContactRows &out, std::size_t block) const;
+  [[nodiscard]] std::vector<double> sum_forces(std::span<const double> whole,
+                                               std::span<const double> nodal_parts) const;
   [[nodiscard]] Residual reduced_right_side(std::span<const double> rhs) const;
   [[nodiscard]] Residual residual(const Residual &right_side, const FetiStep &step) const;
   void subtract_constraints(std::span<const double> nodal, const FetiStep &step, std::span<double> nodal_forces,

@@ -141,12 +141,21 @@ void FetiInterface::number_columns()
   {
     first_column_.resize(static_cast<std::size_t>(copy->subdomain) + 1, column);
     copy->column = column;
+    places_.push_back({copy->subdomain, copy->node * dim_});
     column += dim_;
     if (copies_.is_own(*copy))
       for (int c = 0; c < dim_; ++c)
         boundary_[copy->subdomain - copies_.first_own_subdomain()].push_back(copy->node * dim_ + c);
   }
   first_column_.resize(static_cast<std::size_t>(copies_.n_subdomains()) + 1, column);
+}
+
+Index FetiInterface::own_column(const Place &place) const
+{
+  const std::vector<Index> &boundary = boundary_[place.subdomain - copies_.first_own_subdomain()];
+  const auto found = std::lower_bound(boundary.begin(), boundary.end(), place.unknown);
+  AMONTONS_ASSERT(found != boundary.end() && *found == place.unknown);
+  return first_of(place.subdomain) + static_cast<Index>(found - boundary.begin());
 }
 
 template<class Row>

@@ -25,8 +25,9 @@ struct FetiOptions
 /// bears the share of its stiffness in the sum of the copies' (for one material and even cells: multiplicity scaling).
 ///
 /// Over several processes a process has, of the subdomains of others, the columns of the nodes that it has too: those
-/// of contact nodes, which are everywhere, and of its neighbours' copies. So it knows every row whole that touches an
-/// own column. The order of columns is the same on all processes that have them; rigid unknowns are on all.
+/// of its neighbours' copies, and of all nodes of its constraints. So it knows every gluing row whole that touches an
+/// own column, and the rows of its constraints. The order of columns is the same on all processes that have them; rigid
+/// unknowns are on all.
 class FetiInterface
 {
 public:
@@ -39,6 +40,7 @@ public:
 
   [[nodiscard]] int dim() const { return dim_; }
   [[nodiscard]] FetiCopies &copies() { return copies_; }
+  [[nodiscard]] const FetiCopies &copies() const { return copies_; }
   [[nodiscard]] Index n_columns() const { return first_column_.back() + static_cast<Index>(rigid_unknowns_.size()); }
   /// Of an own subdomain.
   [[nodiscard]] Index first_column(std::size_t s) const { return first_of(copies_.first_own_subdomain() + s); }
@@ -48,6 +50,19 @@ public:
   [[nodiscard]] Index end_of_own_columns() const { return first_column(subdomains_.size()); }
   [[nodiscard]] Index first_rigid_column() const { return first_column_.back(); }
   [[nodiscard]] Index n_rigid() const { return static_cast<Index>(rigid_unknowns_.size()); }
+  /// What a column is on every process: a subdomain, counted over all processes, and a local unknown of it.
+  struct Place
+  {
+    Index subdomain, unknown;
+  };
+  /// Of a column before the rigid ones.
+  [[nodiscard]] Place place(Index column) const
+  {
+    const Place &first = places_[column / dim_];
+    return {first.subdomain, first.unknown + column % dim_};
+  }
+  /// Of a place on the boundary of an own subdomain.
+  [[nodiscard]] Index own_column(const Place &place) const;
   /// Local unknowns of a subdomain's boundary, ascending.
   [[nodiscard]] const std::vector<Index> &boundary(std::size_t s) const { return boundary_[s]; }
   [[nodiscard]] bool on_boundary(Index node) const { return is_boundary_[node] != 0; }
@@ -102,6 +117,7 @@ private:
   std::vector<char> is_boundary_;            ///< by node
   std::vector<std::vector<Index>> boundary_; ///< by subdomain
   std::vector<Index> first_column_;          ///< by subdomain, over all processes
+  std::vector<Place> places_;                ///< of the first component of each boundary node's copy, by column
   std::vector<Index> first_local_;           ///< by own subdomain
   Sharing glue_sharing_;
   Index n_glue_rows_of_others_ = 0;
