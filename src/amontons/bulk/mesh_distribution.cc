@@ -69,11 +69,14 @@ void show(Archive &message, MeshPart &part)
 {
   show(message, part.mesh);
   message.array(part.subdomain_of_cell);
-  std::size_t n_surfaces = part.surfaces.size();
-  message.value(n_surfaces);
-  part.surfaces.resize(n_surfaces);
-  for (Surface &surface : part.surfaces)
-    show(message, surface);
+  for (std::vector<Surface> *surfaces : {&part.surfaces, &part.whole_surfaces})
+  {
+    std::size_t n_surfaces = surfaces->size();
+    message.value(n_surfaces);
+    surfaces->resize(n_surfaces);
+    for (Surface &surface : *surfaces)
+      show(message, surface);
+  }
 }
 
 /// Cuts the whole mesh up, part after part.
@@ -94,12 +97,11 @@ public:
       cells_[process_of_cell[cell]].push_back(cell);
     for (const Index node : everywhere)
       is_everywhere_[node] = 1;
-    for (const Surface &surface : whole.surfaces)
-      for (const GlobalIndex node : surface.node_ids)
-        is_everywhere_[node] = 1;
     find_cells_of_nodes();
     for (const auto &[name, group] : mesh_.groups)
       place_group(name, group, process_of_cell);
+    for (const Surface &surface : whole.surfaces)
+      place_faces(surface, process_of_cell);
   }
 
   MeshPart part(Rank rank)
@@ -114,12 +116,9 @@ public:
     for (const auto &[name, group] : mesh_.groups)
       take_group(rank, group, processes_of_entities_.at(name), out.mesh.groups[name]);
     take_subdomains(rank, out);
-    for (Surface surface : whole_.surfaces)
-    {
-      for (GlobalIndex &node : surface.node_ids)
-        node = position_[node];
-      out.surfaces.push_back(std::move(surface));
-    }
+    for (std::size_t s = 0; s < whole_.surfaces.size(); ++s)
+      out.surfaces.push_back(share(whole_.surfaces[s], faces_of_processes_[s][rank]));
+    out.whole_surfaces = whole_.whole_surfaces;
     for (const GlobalIndex node : out.mesh.node_ids)
       position_[node] = -1;
     for (const Index cell : cells_[rank])
@@ -168,6 +167,46 @@ private:
       if (cell < 0)
         orphans_.insert(orphans_.end(), group.entities[e].begin(), group.entities[e].end());
     }
+  }
+
+  void place_faces(const Surface &surface, std::span<const Rank> process_of_cell)
+  {
+    std::vector<std::vector<Index>> &faces = faces_of_processes_.emplace_back(cells_.size());
+    std::vector<Index> nodes;
+    for (Index f = 0; f < surface.n_faces(); ++f)
+    {
+      nodes.clear();
+      for (const Index local : surface.face(f))
+        nodes.push_back(static_cast<Index>(surface.node_ids[local]));
+      const Index cell = cell_of(nodes);
+      faces[cell >= 0 ? process_of_cell[cell] : 0].push_back(f);
+    }
+  }
+
+  /// These faces of a surface, and all its nodes that the part has.
+  [[nodiscard]] Surface share(const Surface &surface, std::span<const Index> faces) const
+  {
+    Surface out;
+    out.dim = surface.dim;
+    std::vector<Index> local(static_cast<std::size_t>(surface.n_nodes()), -1);
+    for (Index i = 0; i < surface.n_nodes(); ++i)
+      if (position_[surface.node_ids[i]] >= 0)
+      {
+        local[i] = out.n_nodes();
+        out.node_ids.push_back(surface.node_ids[i]);
+        const auto x = surface.reference.begin() + static_cast<std::ptrdiff_t>(i) * surface.dim;
+        out.reference.insert(out.reference.end(), x, x + surface.dim);
+      }
+    for (const Index f : faces)
+    {
+      for (const Index node : surface.face(f))
+        out.face_nodes.push_back(local[node]);
+      out.face_offsets.push_back(static_cast<Index>(out.face_nodes.size()));
+      out.face_ids.push_back(surface.face_ids[f]);
+      if (!surface.face_bodies.empty())
+        out.face_bodies.push_back(surface.face_bodies[f]);
+    }
+    return out;
   }
 
   void take_nodes(Rank rank, Mesh &out)
@@ -258,6 +297,7 @@ private:
   std::vector<char> is_everywhere_;
   std::map<Index, std::vector<Index>> cells_of_node_;
   std::map<std::string, std::vector<Rank>> processes_of_entities_; ///< by group
+  std::vector<std::vector<std::vector<Index>>> faces_of_processes_; ///< by surface and process
   std::vector<Index> orphans_;       ///< nodes of entities that belong to no deformable cell
   std::vector<Index> position_;      ///< of each node in the part that is being made, or -1
   std::vector<Index> cell_position_; ///< the same for cells
@@ -285,8 +325,9 @@ MeshPart distribute(MessageExchange &messages, const MeshPart &whole, std::span<
   Unpacker unpacker{ByteReader(in.front().bytes)};
   MeshPart part;
   show(unpacker, part);
-  for (Surface &surface : part.surfaces)
-    surface.build_adjacency();
+  for (std::vector<Surface> *surfaces : {&part.surfaces, &part.whole_surfaces})
+    for (Surface &surface : *surfaces)
+      surface.build_adjacency();
   return part;
 }
 } // namespace amontons

@@ -9,15 +9,17 @@ namespace amontons
 {
 /// What one process has of the problem's mesh.
 ///
-/// Its nodes are, in this order: those that every process has (of contact surfaces and of rigid bodies; they have the
-/// same positions everywhere), then those of its own cells, each part in the order of the whole mesh. An entity of a
-/// group of lower dimension is where the first deformable cell is that has all its nodes; what belongs to no such cell
-/// is on process 0.
+/// Its nodes are, in this order: those that every process has (of rigid bodies, for one; they have the same positions
+/// everywhere), then those of its own cells, each part in the order of the whole mesh. An entity of a group of lower
+/// dimension, and a contact surface's face, is where the first deformable cell is that has all its nodes; what belongs
+/// to no such cell is on process 0.
 struct MeshPart
 {
   Mesh mesh;
   std::vector<Index> subdomain_of_cell; ///< [n_cells], 0 .. n-1; empty: one subdomain
-  std::vector<Surface> surfaces;        ///< contact surfaces, whole; node_ids are positions in `mesh`
+  /// Of each contact surface the process's faces, and all nodes that it has. Ids are positions in the whole mesh.
+  std::vector<Surface> surfaces;
+  std::vector<Surface> whole_surfaces; ///< that every process has all of
 };
 
 /// Which process shall have each cell: subdomains (cells, where there are none) in connected lumps of about equal
@@ -30,7 +32,7 @@ std::vector<Rank> processes_of_cells(const Mesh &mesh, std::span<const Index> su
 /// Gives each process its part. Collective.
 /// @param whole on process 0; elsewhere not looked at
 /// @param process_of_cell, is_rigid [n_cells] on process 0
-/// @param everywhere positions in the whole mesh of nodes that all are to have beside those of surfaces
+/// @param everywhere positions in the whole mesh of nodes that all are to have
 MeshPart distribute(MessageExchange &messages, const MeshPart &whole, std::span<const Rank> process_of_cell,
                     const std::vector<bool> &is_rigid, std::span<const Index> everywhere);
 } // namespace amontons

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 namespace
 {
 /// To be counted up when the content changes.
-constexpr int format = 2;
+constexpr int format = 3;
 
 template<class T>
 Json bytes(const std::vector<T> &values)
@@ -55,7 +55,9 @@ State to_state(const Json &from)
 
 Json to_json(const ContactHistory &history)
 {
-  return {{"pairing", bytes(history.pairing)},
+  return {{"nodes", bytes(history.nodes)},
+          {"pairing", bytes(history.pairing)},
+          {"face_nodes", bytes(history.face_nodes)},
           {"status", bytes(history.status)},
           {"total_slip", bytes(history.total_slip)}};
 }
@@ -63,7 +65,9 @@ Json to_json(const ContactHistory &history)
 ContactHistory to_history(const Json &from)
 {
   ContactHistory out;
+  read(from.at("nodes"), out.nodes);
   read(from.at("pairing"), out.pairing);
+  read(from.at("face_nodes"), out.face_nodes);
   read(from.at("status"), out.status);
   read(from.at("total_slip"), out.total_slip);
   return out;

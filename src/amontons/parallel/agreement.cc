@@ -132,4 +132,13 @@ void end_together(const Communicator &communicator, const std::function<void()> 
   }
   throw_gravest(own.communicator(), ending);
 }
+
+std::string told_by_one(const Sharing &processes, bool tells, const std::function<std::string()> &text)
+{
+  const double teller = processes.maximum_over_processes(tells ? processes.rank() : -1);
+  const std::string own = tells ? text() : "";
+  if (teller < 0 || !processes.is_distributed())
+    return own;
+  return processes.messages()->communicator().broadcast(own, static_cast<Rank>(teller));
+}
 } // namespace amontons

@@ -1,7 +1,9 @@
 #pragma once
 #include "amontons/parallel/communicator.h"
+#include "amontons/parallel/sharing.h"
 
 #include <functional>
+#include <string>
 
 namespace amontons
 {
@@ -21,4 +23,7 @@ void agree_on_errors(const Communicator &communicator, const std::function<void(
 /// To be put around work before what the work has built is destroyed, where destroying it is collective. One process
 /// alone gets its exception as it is.
 void end_together(const Communicator &communicator, const std::function<void()> &work);
+
+/// What one process has to tell, on all; of several that of the highest rank; empty where nobody has. Collective.
+std::string told_by_one(const Sharing &processes, bool tells, const std::function<std::string()> &text);
 } // namespace amontons

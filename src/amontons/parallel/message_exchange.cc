@@ -80,6 +80,18 @@ MessageExchange::~MessageExchange()
     MPI_Comm_free(&communicator);
 }
 
+void MessageExchange::add_traffic(const std::map<std::string, Traffic> &other)
+{
+  for (const auto &[phase, traffic] : other)
+  {
+    Traffic &own = traffic_[phase];
+    own.messages += traffic.messages;
+    own.bytes += traffic.bytes;
+    own.reductions += traffic.reductions;
+    own.reduced_bytes += traffic.reduced_bytes;
+  }
+}
+
 void MessageExchange::count(const std::string &phase, const std::vector<Message> &out)
 {
   Traffic &traffic = traffic_[phase];

@@ -58,6 +58,8 @@ public:
 
   [[nodiscard]] const std::map<std::string, Traffic> &traffic() const { return traffic_; }
   void forget_traffic() { traffic_.clear(); }
+  /// Counts what the process has sent by other ways as well.
+  void add_traffic(const std::map<std::string, Traffic> &other);
 
 private:
   void count(const std::string &phase, const std::vector<Message> &out);

@@ -6,6 +6,7 @@
 #include "amontons/parallel/archive.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 
@@ -50,7 +51,9 @@ void show(Archive &message, Checkpoint &checkpoint)
   checkpoint.contacts.resize(n_contacts);
   for (ContactHistory &contact : checkpoint.contacts)
   {
+    message.array(contact.nodes);
     message.array(contact.pairing);
+    message.array(contact.face_nodes);
     message.array(contact.status);
     message.array(contact.total_slip);
   }
@@ -60,10 +63,10 @@ void show(Archive &message, Checkpoint &checkpoint)
 }
 
 /// Positions in the whole: of the nodes, and behind all nodes of the points of analytic bodies.
-std::vector<GlobalIndex> ids_of_nodes(const Mesh &mesh, const Sharing &nodes)
+std::vector<GlobalIndex> ids_of_nodes(const Mesh &mesh, Index n_state_nodes)
 {
   std::vector<GlobalIndex> ids = mesh.node_ids;
-  ids.resize(static_cast<std::size_t>(nodes.size()));
+  ids.resize(static_cast<std::size_t>(n_state_nodes));
   std::iota(ids.begin() + mesh.n_nodes(), ids.end(), mesh.n_global_nodes);
   return ids;
 }
@@ -103,6 +106,73 @@ std::map<GlobalIndex, std::span<const double>> by_cell(const CellHistories &hist
   return out;
 }
 
+/// Adds node i of one history to another.
+void append(ContactHistory &to, const ContactHistory &from, std::size_t i)
+{
+  const auto add = [&](auto &values, const auto &others, std::size_t n)
+  {
+    const auto first = others.begin() + static_cast<std::ptrdiff_t>(i * n);
+    values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(n));
+  };
+  add(to.nodes, from.nodes, 1);
+  add(to.pairing, from.pairing, 1);
+  add(to.face_nodes, from.face_nodes, max_face_nodes);
+  add(to.status, from.status, 1);
+  add(to.total_slip, from.total_slip, from.total_slip.size() / from.nodes.size());
+}
+
+/// Where a contact node's history and multipliers are.
+struct ContactPlace
+{
+  GlobalIndex node;
+  std::size_t part, i, multiplier; ///< which part, which of its nodes, first of its multipliers
+};
+
+/// Of a contact's nodes in several parts, by their positions in the whole.
+std::vector<ContactPlace> contact_places(std::span<const Checkpoint *const> parts, std::size_t contact, int dim)
+{
+  std::vector<ContactPlace> out;
+  for (std::size_t part = 0; part < parts.size(); ++part)
+  {
+    std::size_t before = 0;
+    for (std::size_t c = 0; c < contact; ++c)
+      before += parts[part]->contacts[c].nodes.size();
+    const std::vector<GlobalIndex> &nodes = parts[part]->contacts[contact].nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      out.push_back({nodes[i], part, i, (before + i) * dim});
+  }
+  std::sort(out.begin(), out.end(), [](const ContactPlace &a, const ContactPlace &b) { return a.node < b.node; });
+  return out;
+}
+
+/// Adds a contact's history and multipliers, which are those at some places of it in several parts.
+void add_contact(Checkpoint &out, std::span<const Checkpoint *const> parts, std::size_t contact,
+                 std::span<const ContactPlace> places, int dim)
+{
+  ContactHistory &history = out.contacts.emplace_back();
+  const auto add = [&](State &to, const State &from, std::size_t multiplier)
+  {
+    const auto first = from.multipliers.begin() + static_cast<std::ptrdiff_t>(multiplier);
+    to.multipliers.insert(to.multipliers.end(), first, first + dim);
+  };
+  for (const ContactPlace &place : places)
+  {
+    const Checkpoint &part = *parts[place.part];
+    append(history, part.contacts[contact], place.i);
+    add(out.state, part.state, place.multiplier);
+    if (out.last)
+      add(out.last->start, part.last->start, place.multiplier);
+  }
+}
+
+void forget_contacts(Checkpoint &checkpoint)
+{
+  checkpoint.contacts.clear();
+  checkpoint.state.multipliers.clear();
+  if (checkpoint.last)
+    checkpoint.last->start.multipliers.clear();
+}
+
 /// What a process brings to the whole.
 struct Share
 {
@@ -121,8 +191,9 @@ Share share_of(const Checkpoint &local, const Mesh &mesh, const Sharing &nodes)
 {
   Share share;
   std::vector<Index> own;
-  const std::vector<GlobalIndex> ids = ids_of_nodes(mesh, nodes);
-  for (Index node = 0; node < nodes.size(); ++node)
+  const std::vector<GlobalIndex> ids =
+      ids_of_nodes(mesh, static_cast<Index>(local.state.displacement.size()) / mesh.dim);
+  for (Index node = 0; node < static_cast<Index>(ids.size()); ++node)
     if (nodes.is_own(node))
     {
       own.push_back(node);
@@ -131,24 +202,58 @@ Share share_of(const Checkpoint &local, const Mesh &mesh, const Sharing &nodes)
   share.part.state = at_nodes(local.state, own, mesh.dim);
   if (local.last)
     share.part.last = LastIncrement{at_nodes(local.last->start, own, mesh.dim), 0, 0};
+  share.part.contacts = local.contacts;
   share.part.cells = local.cells;
   for (Index &cell : share.part.cells.cells)
     cell = static_cast<Index>(mesh.cell_ids[cell]);
   return share;
 }
 
-/// What of the checkpoint of the whole has to do with some nodes and cells. @param cells positions in the whole
-Checkpoint part_at(const Checkpoint &whole, const std::vector<GlobalIndex> &nodes,
-                   const std::vector<GlobalIndex> &cells,
+/// What a process asks for: nodes, cells and impactor nodes by their positions in the whole.
+struct Wish
+{
+  std::vector<GlobalIndex> nodes, cells;
+  std::vector<std::vector<GlobalIndex>> contact_nodes;
+};
+
+template<class Archive>
+void show(Archive &message, Wish &wish)
+{
+  message.array(wish.nodes);
+  message.array(wish.cells);
+  std::size_t n_contacts = wish.contact_nodes.size();
+  message.value(n_contacts);
+  wish.contact_nodes.resize(n_contacts);
+  for (std::vector<GlobalIndex> &nodes : wish.contact_nodes)
+    message.array(nodes);
+}
+
+/// What of the checkpoint of the whole has to do with some nodes and cells.
+Checkpoint part_at(const Checkpoint &whole, const Wish &wish,
                    const std::map<GlobalIndex, std::span<const double>> &histories, int dim)
 {
   Checkpoint out = whole;
-  out.state = at_nodes(whole.state, nodes, dim);
+  out.state = at_nodes(whole.state, wish.nodes, dim);
   if (whole.last)
-    out.last->start = at_nodes(whole.last->start, nodes, dim);
+    out.last->start = at_nodes(whole.last->start, wish.nodes, dim);
+  forget_contacts(out);
+  const std::array<const Checkpoint *, 1> parts{&whole};
+  for (std::size_t c = 0; c < wish.contact_nodes.size(); ++c)
+  {
+    const std::vector<ContactPlace> all = contact_places(parts, c, dim);
+    std::vector<ContactPlace> places;
+    for (const GlobalIndex node : wish.contact_nodes[c])
+    {
+      const auto place = std::lower_bound(all.begin(), all.end(), node,
+                                          [](const ContactPlace &a, GlobalIndex b) { return a.node < b; });
+      AMONTONS_ASSERT(place != all.end() && place->node == node);
+      places.push_back(*place);
+    }
+    add_contact(out, parts, c, places, dim);
+  }
   out.cells = {{}, {0}, {}};
-  for (std::size_t cell = 0; cell < cells.size(); ++cell)
-    if (const auto found = histories.find(cells[cell]); found != histories.end())
+  for (std::size_t cell = 0; cell < wish.cells.size(); ++cell)
+    if (const auto found = histories.find(wish.cells[cell]); found != histories.end())
       append(out.cells, static_cast<Index>(cell), found->second);
   return out;
 }
@@ -165,11 +270,13 @@ Checkpoint gathered(const Checkpoint &local, const Mesh &mesh, const Sharing &no
   if (in.empty()) // not on process 0
     return {};
   Checkpoint whole = local;
-  const auto n = static_cast<std::size_t>(mesh.n_global_nodes + nodes.size() - mesh.n_nodes()) * mesh.dim;
+  const std::size_t n = local.state.displacement.size() +
+                        static_cast<std::size_t>(mesh.n_global_nodes - mesh.n_nodes()) * mesh.dim;
   whole.state.displacement.assign(n, 0.0);
   if (whole.last)
     whole.last->start.displacement.assign(n, 0.0);
   std::vector<Share> shares(in.size());
+  std::vector<const Checkpoint *> parts;
   std::map<GlobalIndex, std::span<const double>> histories;
   for (std::size_t k = 0; k < in.size(); ++k)
   {
@@ -180,14 +287,19 @@ Checkpoint gathered(const Checkpoint &local, const Mesh &mesh, const Sharing &no
     if (whole.last)
       put_at_nodes(whole.last->start, share.nodes, mesh.dim, share.part.last->start);
     histories.merge(by_cell(share.part.cells));
+    parts.push_back(&share.part);
   }
+  forget_contacts(whole);
+  for (std::size_t c = 0; c < local.contacts.size(); ++c)
+    add_contact(whole, parts, c, contact_places(parts, c, mesh.dim), mesh.dim);
   whole.cells = {{}, {0}, {}};
   for (const auto &[cell, values] : histories)
     append(whole.cells, static_cast<Index>(cell), values);
   return whole;
 }
 
-Checkpoint part_of(const Checkpoint &whole, std::uint64_t problem_key, const Mesh &mesh, const Sharing &nodes)
+Checkpoint part_of(const Checkpoint &whole, std::uint64_t problem_key, const Mesh &mesh, const Sharing &nodes,
+                   Index n_state_nodes, const std::vector<std::vector<GlobalIndex>> &contact_nodes)
 {
   const auto check = [&]
   {
@@ -203,15 +315,16 @@ Checkpoint part_of(const Checkpoint &whole, std::uint64_t problem_key, const Mes
   MessageExchange &messages = *nodes.messages();
   agree_on_errors(messages.communicator(), check);
   Packer request;
-  request.array(ids_of_nodes(mesh, nodes));
-  request.array(mesh.cell_ids);
+  Wish own{ids_of_nodes(mesh, n_state_nodes), mesh.cell_ids, contact_nodes};
+  show(request, own);
   std::vector<Message> answers;
   const auto histories = by_cell(whole.cells);
   for (const Message &from : messages.exchange(phase, {{0, request.message.take()}}))
   {
-    ByteReader reader(from.bytes);
-    const auto wanted = reader.get_array<GlobalIndex>(), cells = reader.get_array<GlobalIndex>();
-    Checkpoint part = part_at(whole, wanted, cells, histories, mesh.dim);
+    Unpacker unpacker{ByteReader(from.bytes)};
+    Wish wish;
+    show(unpacker, wish);
+    Checkpoint part = part_at(whole, wish, histories, mesh.dim);
     Packer packer;
     show(packer, part);
     answers.push_back({from.rank, packer.message.take()});

@@ -36,16 +36,18 @@ struct Checkpoint
 std::uint64_t problem_key(const ProblemOptions &options, const Mesh &mesh);
 
 /// The checkpoint of the whole from the processes' parts, on process 0; of no use elsewhere. Collective.
-/// @param local nodal vectors and cells as in `mesh`; everything else the same on all processes
-/// @param nodes those of the mesh, then the points of analytic bodies
+/// @param local cells as in `mesh`, nodal vectors and contacts of the process, everything else the same on all
+/// @param nodes those of the mesh, then the points of analytic bodies, and perhaps more behind those of a state
 Checkpoint gathered(const Checkpoint &local, const Mesh &mesh, const Sharing &nodes);
 
 /// A process's part of the checkpoint of the whole. Of the counters, those that each process has for itself go to
 /// process 0. Collective.
 /// @param whole on process 0; elsewhere not looked at
 /// @param problem_key of the problem to go on with
+/// @param n_state_nodes of the mesh and of analytic bodies @param contact_nodes own impactor nodes, by contact
 /// @throws UserError, on all processes, for a checkpoint of another problem
-Checkpoint part_of(const Checkpoint &whole, std::uint64_t problem_key, const Mesh &mesh, const Sharing &nodes);
+Checkpoint part_of(const Checkpoint &whole, std::uint64_t problem_key, const Mesh &mesh, const Sharing &nodes,
+                   Index n_state_nodes, const std::vector<std::vector<GlobalIndex>> &contact_nodes);
 
 /// Positions of rigid bodies as numbers, 15 for a body, and back.
 std::vector<double> to_numbers(const std::vector<RigidState> &bodies);

@@ -1,8 +1,10 @@
 #include "amontons/solution/contact_assembly.h"
 
+#include "amontons/algebra/linear_solver_failure.h"
 #include "amontons/solution/dependent_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -42,12 +44,12 @@ ContactAssembly::ContactAssembly(Model &model, SystemForm &form)
 
 void ContactAssembly::find_shared_nodes()
 {
-  special_.assign(model_.rigid_of_node().size(), 0);
+  special_.assign(static_cast<std::size_t>(model_.n_state_nodes()), 0);
   std::vector<int> n_contacts(special_.size(), 0);
   for (const ContactInterface &contact : model_.contacts())
-    for (const GlobalIndex node : contact.impactor().node_ids)
-      if (++n_contacts[static_cast<std::size_t>(node)] > 1)
-        special_[static_cast<std::size_t>(node)] = 1;
+    for (Index i = 0; i < contact.n_nodes(); ++i)
+      if (++n_contacts[contact.node(i)] > 1)
+        special_[contact.node(i)] = 1;
   for (const HeldComponent &held : model_.supports().held())
     special_[held.nodal / model_.dim()] = 1;
   for (std::size_t node = 0; node < special_.size(); ++node)
@@ -105,8 +107,7 @@ ContactStatus ContactAssembly::decide_status(const ContactInterface &contact, In
 }
 
 ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t block, const State &state,
-                                                    std::span<const double> start, std::span<const double> pending,
-                                                    bool forced, bool first)
+                                                    const Motions &motions, bool forced, bool first)
 {
   ContactInterface &contact = model_.contacts()[c];
   const int dim = model_.dim();
@@ -118,7 +119,7 @@ ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t 
     work.element = unpaired_element(lambda, dim, r);
     return work;
   }
-  const ContactLinearisation now = contact.linearise(i, state.displacement, start);
+  const ContactLinearisation now = contact.linearise(i, motions.now, motions.start);
   const double mu = contact.options().friction_coefficient;
   ContactStatus status = decide_status(contact, i, block, now, lambda);
   if (first && !contact.options().tied && status != ContactStatus::open &&
@@ -135,8 +136,8 @@ ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t 
   {
     double gap = now.gap;
     const ConstraintPattern &pattern = form_.constraints()[block];
-    for (int k = 0; k < pattern.n_nodal() && !pending.empty(); ++k)
-      gap += now.gap_gradient[k] * pending[pattern.nodal[k]];
+    for (int k = 0; k < pattern.n_nodal() && !motions.pending.empty(); ++k)
+      gap += now.gap_gradient[k] * motions.pending[pattern.nodal[k]];
     candidates_.push_back({c, i, gap, now.gap_gradient});
     return work;
   }
@@ -211,6 +212,18 @@ ContactContribution ContactAssembly::evaluate(const State &state, std::span<cons
   out.prescribed_force.assign(out.force.size(), 0);
   out.constraint.assign(static_cast<std::size_t>(model_.layout().n_multipliers()), 0);
   out.prescribed_gap.assign(out.constraint.size(), 0);
+  Motions motions{model_.with_halo(state.displacement), model_.with_halo(start), {}};
+  if (!pending.empty())
+    motions.pending = model_.with_halo(pending);
+  agree_on_failures(model_.nodes(), [&] { make_elements(state, motions, forced, first, out); });
+  add_up(!pending.empty(), out);
+  return out;
+}
+
+void ContactAssembly::make_elements(const State &state, const Motions &motions,
+                                    std::span<const std::pair<int, Index>> forced, bool first,
+                                    ContactContribution &out)
+{
   holding_.clear();
   candidates_.clear();
   trial_direction_.assign(form_.constraints().size(), Eigen::Vector3d::Zero());
@@ -219,13 +232,13 @@ ContactContribution ContactAssembly::evaluate(const State &state, std::span<cons
     for (Index i = 0; i < model_.contacts()[c].n_nodes(); ++i)
     {
       const bool force = std::binary_search(forced.begin(), forced.end(), std::pair{c, i});
-      Work work = make_element(c, i, first_block_[c] + i, state, start, pending, force, first);
+      Work work = make_element(c, i, first_block_[c] + i, state, motions, force, first);
       out.status.push_back(work.element.status);
-      const auto node = static_cast<Index>(model_.contacts()[c].impactor().node_ids[i]);
+      const Index node = model_.contacts()[c].node(i);
       if (special_[node])
         special[node].push_back(std::move(work));
       else
-        add(work, pending, out);
+        add(work, motions.pending, out);
     }
   for (auto &[node, works] : special)
   {
@@ -234,8 +247,20 @@ ContactContribution ContactAssembly::evaluate(const State &state, std::span<cons
       pointers.push_back(&work);
     drop_dependent_rows(pointers, state);
     for (const Work &work : works)
-      add(work, pending, out);
+      add(work, motions.pending, out);
   }
-  return out;
+}
+
+/// What the elements of all processes do.
+void ContactAssembly::add_up(bool pending, ContactContribution &out) const
+{
+  const Sharing &nodes = model_.nodes();
+  nodes.sum(out.force, model_.dim());
+  if (pending)
+    nodes.sum(out.prescribed_force, model_.dim());
+  std::array<double, 2> norms{out.constraint_norm2, out.force_norm2};
+  nodes.sum_over_processes(norms);
+  out.constraint_norm2 = norms[0];
+  out.force_norm2 = norms[1];
 }
 } // namespace amontons

@@ -12,16 +12,17 @@ namespace amontons
 /// What the contacts add to a residual.
 struct ContactContribution
 {
-  std::vector<double> force;            ///< F_x, nodal, [n_nodal]
+  std::vector<double> force;            ///< F_x, nodal, [n_nodal], of all processes' elements
   std::vector<double> constraint;       ///< F_lambda, [n_multipliers]
   std::vector<double> prescribed_force; ///< K_c du and B du of the pending prescribed motion:
   std::vector<double> prescribed_gap;   ///< [n_nodal] and [n_multipliers]
-  std::vector<ContactStatus> status;    ///< all contacts, node by node
-  double constraint_norm2 = 0;          ///< sum (r F_lambda)^2, force^2
-  double force_norm2 = 0;               ///< sum of element forces' squares
+  std::vector<ContactStatus> status;    ///< all contacts, own node by own node
+  double constraint_norm2 = 0;          ///< sum (r F_lambda)^2, force^2, over all processes
+  double force_norm2 = 0;               ///< sum of element forces' squares, over all processes
 };
 
-/// Writes the contacts' elements into the linearised system and the residual.
+/// Writes the contacts' elements into the linearised system and the residual. Over several processes an element is
+/// evaluated by the owner of its impactor node.
 ///
 /// At nodes that a support holds, or that are impactors in several contacts, see DependentRows.
 class ContactAssembly
@@ -29,11 +30,12 @@ class ContactAssembly
 public:
   ContactAssembly(Model &model, SystemForm &form);
 
-  /// To be called whenever a face of some pair changed.
+  /// To be called whenever a face of some pair changed. Collective.
   void rebuild_pattern();
 
-  /// @param start nodal displacement at the increment's beginning
-  /// @param pending prescribed motion still to come, nodal; may be empty
+  /// Collective.
+  /// @param start nodal displacement at the increment's beginning, as in a state
+  /// @param pending prescribed motion still to come, as in a state; may be empty (then on all processes)
   /// @param forced (contact, node) to be taken as closed whatever sigma says, in ascending order
   /// @param first at an increment's beginning a closed node keeps the status it ended the last one with: at the limit
   /// of
@@ -46,7 +48,7 @@ public:
   void remember_slip() { slip_direction_ = trial_direction_; }
   void forget_slip() { slip_direction_.clear(); }
 
-  /// Closed nodes' rows and open nodes of the last evaluation, for FreeMotions.
+  /// Closed nodes' rows and open nodes of the last evaluation, of this process, for FreeMotions.
   [[nodiscard]] const std::vector<HoldingNode> &holding() const { return holding_; }
   [[nodiscard]] const std::vector<CandidateNode> &candidates() const { return candidates_; }
   /// Record them from now on.
@@ -63,10 +65,18 @@ private:
   void find_shared_nodes();
   [[nodiscard]] ContactStatus decide_status(const ContactInterface &contact, Index i, std::size_t block,
                                             const ContactLinearisation &now, const Multipliers &lambda);
-  [[nodiscard]] Work make_element(int c, Index i, std::size_t block, const State &state, std::span<const double> start,
-                                  std::span<const double> pending, bool forced, bool first);
+  /// Nodal vectors with the halo.
+  struct Motions
+  {
+    std::vector<double> now, start, pending;
+  };
+  void make_elements(const State &state, const Motions &motions, std::span<const std::pair<int, Index>> forced,
+                     bool first, ContactContribution &out);
+  [[nodiscard]] Work make_element(int c, Index i, std::size_t block, const State &state, const Motions &motions,
+                                  bool forced, bool first);
   void drop_dependent_rows(std::span<Work *const> works, const State &state) const;
   void add(const Work &work, std::span<const double> pending, ContactContribution &out);
+  void add_up(bool pending, ContactContribution &out) const;
   void write(std::size_t block, const ContactElement &element, double r);
 
   Model &model_;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace amontons
 {
@@ -19,8 +20,18 @@ namespace
 constexpr double touching = 1e-9;
 /// Edges of the target sharper than this stay sharp where normals are smoothed.
 constexpr double sharp_angle = 3.14159265358979323846 / 6;
-
 } // namespace
+
+MeanStiffness::MeanStiffness(std::span<const double> diagonal, std::span<const Index> nodes, int dim)
+{
+  for (const Index node : nodes)
+    for (int c = 0; c < dim; ++c)
+      if (const double k = diagonal[static_cast<std::size_t>(node) * dim + c]; k > 0)
+      {
+        sum += k;
+        ++n;
+      }
+}
 
 std::vector<Surface> contact_sides(const Mesh &mesh, const ContactOptions &options,
                                    const std::vector<BodyOptions> &bodies)
@@ -37,39 +48,31 @@ std::vector<Surface> contact_sides(const Mesh &mesh, const ContactOptions &optio
   return sides;
 }
 
-ContactInterface::ContactInterface(const Mesh &mesh, Kinematics kinematics, Strain strain,
-                                   const ContactOptions &options, const DetectionOptions &detection, Surface impactor,
-                                   std::optional<Surface> target, const RigidBody *analytic_target)
-  : mesh_(mesh)
-  , dim_(mesh.dim)
+ContactInterface::ContactInterface(const std::vector<double> &points, Kinematics kinematics, Strain strain,
+                                   const ContactOptions &options, const DetectionOptions &detection,
+                                   ContactSurfaces surfaces, const RigidBody *analytic_target)
+  : points_(points)
+  , dim_(surfaces.impactor.dim)
   , axisymmetric_(kinematics == Kinematics::axisymmetric)
   , small_(strain == Strain::small)
   , options_(options)
+  , surfaces_(std::move(surfaces))
 {
-  impactor_ = std::make_shared<const Surface>(std::move(impactor));
-  areas_ = tributary_areas(*impactor_, axisymmetric_);
   if (analytic_target)
   {
     analytic_ = analytic_target->shape;
     shape_node_ = analytic_target->nodes.front();
   }
-  else if (options.is_self_contact())
-  {
-    target_ = impactor_;
-    detector_ = make_self_detector(detection, *impactor_, options.self_distance);
-  }
-  else
-  {
-    target_ = std::make_shared<const Surface>(std::move(target.value()));
-    if (is_mortar())
-      mortar_distance_ = detection.distance;
-    else
-      detector_ = make_detector(detection, *impactor_, *target_);
-  }
   if (is_mortar())
+  {
+    mortar_distance_ = detection.distance;
     require_meshed_sides();
+  }
   const auto n = static_cast<std::size_t>(n_nodes());
   pairing_.resize(n);
+  faces_.ids.assign(n * max_face_nodes, -1);
+  faces_.positions.assign(n * max_face_nodes, -1);
+  areas_.assign(n, 0);
   augmentation_.assign(n, 1);
   n_face_changes_.assign(n, 0);
   slip_origin_.assign(n, Eigen::Vector3d::Zero());
@@ -80,52 +83,41 @@ ContactInterface::ContactInterface(const Mesh &mesh, Kinematics kinematics, Stra
   status_.assign(n, ContactStatus::open);
 }
 
-void ContactInterface::set_augmentation(std::span<const double> diagonal)
+void ContactInterface::share(std::shared_ptr<MessageExchange> messages)
 {
-  const auto mean = [&](std::span<const Index> nodes)
-  {
-    double sum = 0;
-    int n = 0;
-    for (const Index node : nodes)
-      for (int c = 0; c < dim_; ++c)
-        if (const double k = diagonal[static_cast<std::size_t>(node) * dim_ + c]; k > 0)
-        {
-          sum += k;
-          ++n;
-        }
-    return n > 0 ? sum / n : 0;
-  };
-  double on_target = 0;
-  if (target_)
-  {
-    std::vector<Index> nodes(target_->node_ids.begin(), target_->node_ids.end());
-    on_target = mean(nodes);
-  }
+  std::vector<char> is_own(surfaces_.nodes.size(), 0);
+  std::fill_n(is_own.begin(), n_nodes(), 1);
+  surfaces_.sharing = Sharing(std::move(messages), "model", impactor().node_ids, is_own);
+}
+
+void ContactInterface::set_augmentation(std::span<const double> diagonal, double on_target)
+{
   for (Index i = 0; i < n_nodes(); ++i)
   {
-    const auto node = static_cast<Index>(impactor_->node_ids[i]);
-    const double stiffness = mean({&node, 1});
-    const double r = stiffness > 0 ? stiffness : on_target;
+    const MeanStiffness at_node(diagonal, {&surfaces_.nodes[i], 1}, dim_);
+    const double r = at_node.sum > 0 ? at_node.sum / at_node.n : on_target;
     if (r <= 0)
       throw UserError(options_.where, "both sides of contact '" + options_.name + "' are rigid; one must deform");
     augmentation_[i] = options_.augmentation * r;
   }
 }
 
+std::span<const Index> ContactInterface::face_nodes(Index i) const
+{
+  const Index *first = faces_.positions.data() + static_cast<std::ptrdiff_t>(i) * max_face_nodes;
+  return {first, std::find(first, first + max_face_nodes, -1)};
+}
+
 std::vector<Index> ContactInterface::nodes(Index i) const
 {
-  std::vector<Index> out{static_cast<Index>(impactor_->node_ids[i])};
-  const auto add = [&](std::span<const Index> targets)
-  {
-    for (const Index local : targets)
-      out.push_back(static_cast<Index>(target_->node_ids[local]));
-  };
+  std::vector<Index> out{node(i)};
+  const auto add = [&](std::span<const Index> targets) { out.insert(out.end(), targets.begin(), targets.end()); };
   if (analytic_)
     out.push_back(shape_node_);
   else if (mortar_)
-    add(mortar_->targets_of(i));
+    add(mortar_->of(mortar_->positions, i));
   else if (pairing_[i].face >= 0)
-    add(target_->face(pairing_[i].face));
+    add(face_nodes(i));
   return out;
 }
 
@@ -136,10 +128,10 @@ std::vector<double> ContactInterface::target_weights(Index i) const
     return {1};
   if (mortar_)
   {
-    const auto weights = mortar_->weights_of(i);
+    const auto weights = mortar_->of(mortar_->weight, i);
     return {weights.begin(), weights.end()};
   }
-  const auto n = target_->face(pairing_[i].face).size();
+  const auto n = face_nodes(i).size();
   const auto shape = shape_functions(static_cast<int>(n), pairing_[i].xi);
   return {shape.begin(), shape.begin() + static_cast<std::ptrdiff_t>(n)};
 }
@@ -158,7 +150,7 @@ void ContactInterface::add_reference(std::span<const Index> nodes, std::span<dou
   std::size_t k = 0;
   for (const Index node : nodes)
     for (int c = 0; c < dim_; ++c)
-      out[k++] += node == shape_node_ ? analytic_->point[c] : mesh_.points[static_cast<std::size_t>(node) * dim_ + c];
+      out[k++] += node == shape_node_ ? analytic_->point[c] : points_[static_cast<std::size_t>(node) * dim_ + c];
 }
 
 Eigen::Vector3d ContactInterface::relative(Index i, std::span<const double> displacement) const
@@ -181,7 +173,10 @@ bool ContactInterface::begin_increment(std::span<const double> start)
   const bool restore =
       !start_pairing_.empty() && !std::equal(pairing_.begin(), pairing_.end(), start_pairing_.begin(), same_face);
   if (restore)
+  {
     pairing_ = start_pairing_;
+    faces_ = start_faces_;
+  }
   smooth_target_normals(start);
   for (Index i = 0; i < n_nodes(); ++i)
   {
@@ -189,14 +184,13 @@ bool ContactInterface::begin_increment(std::span<const double> start)
     has_origin_[i] = 0;
     if (!paired(i))
       continue;
-    const auto node = static_cast<Index>(impactor_->node_ids[i]);
     slip_origin_[i] = Eigen::Vector3d::Zero();
     if (small_)
       slip_origin_[i] = relative(i, start);
     else
     {
-      gather({&node, 1}, start, {slip_origin_[i].data(), 3});
-      add_reference({&node, 1}, {slip_origin_[i].data(), 3});
+      gather({&surfaces_.nodes[i], 1}, start, {slip_origin_[i].data(), 3});
+      add_reference({&surfaces_.nodes[i], 1}, {slip_origin_[i].data(), 3});
     }
     const double gap = linearise_with_origin(i, start, start).gap;
     start_gap_[i] = gap;
@@ -208,21 +202,25 @@ bool ContactInterface::begin_increment(std::span<const double> start)
 
 void ContactInterface::smooth_target_normals(std::span<const double> start)
 {
-  if (small_ || analytic_ || options_.normals == TargetNormals::faceted)
+  if (!surfaces_.whole_target || is_mortar())
     return;
-  std::vector<double> x(target_->reference);
-  for (Index i = 0; i < target_->n_nodes(); ++i)
+  const Surface &target = *surfaces_.whole_target;
+  std::vector<double> x(target.reference);
+  for (Index i = 0; i < target.n_nodes(); ++i)
     for (int c = 0; c < dim_; ++c)
-      x[i * dim_ + c] += start[static_cast<std::size_t>(target_->node_ids[i]) * dim_ + c];
-  target_normals_ = smoothed_normals(*target_, x, sharp_angle);
+      x[i * dim_ + c] += start[static_cast<std::size_t>(smoothed_positions_[i]) * dim_ + c];
+  target_normals_ = smoothed_normals(target, x, sharp_angle);
 }
 
 std::span<const double> ContactInterface::normals_of_face(Index i) const
 {
   if (target_normals_.empty())
     return {};
-  const auto first = static_cast<std::size_t>(target_->face_offsets[pairing_[i].face]) * dim_;
-  const auto end = static_cast<std::size_t>(target_->face_offsets[pairing_[i].face + 1]) * dim_;
+  const Surface &target = *surfaces_.whole_target;
+  const auto face = std::lower_bound(target.face_ids.begin(), target.face_ids.end(), pairing_[i].face);
+  const auto f = face - target.face_ids.begin();
+  const auto first = static_cast<std::size_t>(target.face_offsets[f]) * dim_;
+  const auto end = static_cast<std::size_t>(target.face_offsets[f + 1]) * dim_;
   return {target_normals_.data() + first, end - first};
 }
 
@@ -244,7 +242,7 @@ ContactLinearisation ContactInterface::linearise_with_origin(Index i, std::span<
     if (analytic_)
       out = linearise_shape_small(dim_, axisymmetric_, *analytic_, own, now, origin);
     else if (mortar_)
-      out = linearise_mean(dim_, mortar_->normal[i], own, targets, mortar_->weights_of(i), now, origin);
+      out = linearise_mean(dim_, mortar_->normal[i], own, targets, mortar_->of(mortar_->weight, i), now, origin);
     else
       out = linearise_small(dim_, own, targets, now, origin, pairing_[i].xi);
   }
@@ -319,16 +317,52 @@ void ContactInterface::set_initial_gap(std::span<const double> displacement)
     }
 }
 
+ContactHistory ContactInterface::history() const
+{
+  const auto &ids = impactor().node_ids;
+  return {{ids.begin(), ids.begin() + n_nodes()}, start_pairing_, start_faces_.ids, status_, total_slip_};
+}
+
 void ContactInterface::set_history(const ContactHistory &history)
 {
   const auto n = static_cast<std::size_t>(n_nodes());
   if (history.status.size() != n || history.total_slip.size() != n * (dim_ - 1) ||
-      history.pairing.size() != pairing_.size())
+      history.pairing.size() != pairing_.size() || history.face_nodes.size() != faces_.ids.size())
     throw UserError("the checkpoint holds another number of nodes of contact '" + options_.name + "'");
   status_ = history.status;
   total_slip_ = history.total_slip;
   if (!small_) // there pairs are those of the reference, for what the loads will move
+  {
     pairing_ = history.pairing;
+    faces_.ids = history.face_nodes;
+  }
   start_pairing_ = pairing_;
+  start_faces_ = faces_;
+}
+
+std::vector<GlobalIndex> ContactInterface::wanted_nodes() const
+{
+  std::vector<GlobalIndex> out;
+  for (const TargetFaces *faces : {&faces_, &start_faces_})
+    std::copy_if(faces->ids.begin(), faces->ids.end(), std::back_inserter(out), [](GlobalIndex id) { return id >= 0; });
+  if (mortar_)
+    out.insert(out.end(), mortar_->targets.begin(), mortar_->targets.end());
+  return out;
+}
+
+void ContactInterface::place_faces(const std::function<Index(GlobalIndex)> &position_of)
+{
+  const auto place = [&](const std::vector<GlobalIndex> &ids, std::vector<Index> &positions)
+  {
+    positions.resize(ids.size());
+    std::transform(ids.begin(), ids.end(), positions.begin(),
+                   [&](GlobalIndex id) { return id < 0 ? Index(-1) : position_of(id); });
+  };
+  for (TargetFaces *faces : {&faces_, &start_faces_})
+    place(faces->ids, faces->positions);
+  if (mortar_)
+    place(mortar_->targets, mortar_->positions);
+  if (surfaces_.whole_target && !is_mortar())
+    place(surfaces_.whole_target->node_ids, smoothed_positions_);
 }
 } // namespace amontons

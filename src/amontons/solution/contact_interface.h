@@ -4,10 +4,12 @@
 #include "amontons/contact/element.h"
 #include "amontons/contact/mortar.h"
 #include "amontons/contact/options.h"
-#include "amontons/detection/detector.h"
+#include "amontons/detection/report.h"
 #include "amontons/solution/results.h"
 #include "amontons/surface/shape.h"
 
+#include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,12 +17,17 @@
 
 namespace amontons
 {
+/// Nodes of a face at the most.
+constexpr Index max_face_nodes = 4;
+
 /// What a contact's nodes remember of the increments before.
 struct ContactHistory
 {
-  Pairing pairing;
-  std::vector<ContactStatus> status;
-  std::vector<double> total_slip; ///< as ContactResult::slip
+  std::vector<GlobalIndex> nodes;      ///< [n] of the impactor, positions in the whole mesh
+  Pairing pairing;                     ///< [n], faces by their ids
+  std::vector<GlobalIndex> face_nodes; ///< [n * max_face_nodes] of the face that each is paired with, or -1
+  std::vector<ContactStatus> status;   ///< [n]
+  std::vector<double> total_slip;      ///< as ContactResult::slip
 };
 
 /// The meshed sides of a contact: the impactor, then the target, if that is another surface of the mesh.
@@ -28,22 +35,67 @@ struct ContactHistory
 std::vector<Surface> contact_sides(const Mesh &mesh, const ContactOptions &options,
                                    const std::vector<BodyOptions> &bodies);
 
-/// One contact of the deck: its surfaces, its pairing and the history of its nodes.
+/// What one process has of a contact's surfaces; all of them on one process. Ids are positions in the whole mesh.
+struct ContactSurfaces
+{
+  Surface impactor;            ///< the nodes that the process owns first, then those of its faces that others own
+  Index n_own = 0;             ///< nodes of the impactor that are its own
+  std::vector<Index> nodes;    ///< [n_nodes] of the impactor: positions on the process
+  std::optional<Surface> target;   ///< none in self-contact and where it is analytic
+  std::vector<Index> target_nodes; ///< its positions on the process
+  Sharing sharing;                 ///< of the impactor's nodes
+  /// The same whole, of which every process has all: both for mortar, the target for smoothed normals; else none.
+  std::shared_ptr<const Surface> whole_impactor, whole_target;
+};
+
+/// Positive diagonal entries of the stiffness at some nodes: their sum, and how many. @param diagonal nodal
+struct MeanStiffness
+{
+  MeanStiffness(std::span<const double> diagonal, std::span<const Index> nodes, int dim);
+  double sum = 0;
+  Index n = 0;
+};
+
+/// Impactor nodes' target faces, wherever they are: ids of their nodes, and positions once the process has them.
+struct TargetFaces
+{
+  std::vector<GlobalIndex> ids; ///< [n * max_face_nodes], -1 behind a face's last node
+  std::vector<Index> positions; ///< the same, on the process
+};
+
+/// One contact of the deck, on one process: the pairing and the history of the impactor nodes that it owns. Elements
+/// belong to who owns the impactor node; target nodes may be copies that it has for that alone (Model's halo).
 ///
-/// Displacements are nodal vectors [n_nodal] as in State; `start` is the one at the beginning of the increment.
+/// Displacements are nodal vectors [n_nodal], the halo's among them; `start` is the one at the beginning of the
+/// increment. Nothing here is collective.
 class ContactInterface
 {
 public:
-  /// @param impactor, target as from contact_sides(); no target in self-contact and where it is analytic
-  ContactInterface(const Mesh &mesh, Kinematics kinematics, Strain strain, const ContactOptions &options,
-                   const DetectionOptions &detection, Surface impactor, std::optional<Surface> target,
+  /// @param points reference places of all nodes of the process [n_nodal], by reference: the halo changes
+  ContactInterface(const std::vector<double> &points, Kinematics kinematics, Strain strain,
+                   const ContactOptions &options, const DetectionOptions &detection, ContactSurfaces surfaces,
                    const RigidBody *analytic_target);
 
   [[nodiscard]] const ContactOptions &options() const { return options_; }
-  [[nodiscard]] const Surface &impactor() const { return *impactor_; }
-  [[nodiscard]] const Surface *target() const { return target_.get(); } ///< null for an analytic target
-  [[nodiscard]] Index n_nodes() const { return impactor_->n_nodes(); }
+  [[nodiscard]] const ContactSurfaces &surfaces() const { return surfaces_; }
+  [[nodiscard]] const Surface &impactor() const { return surfaces_.impactor; }
+  /// The target's surface of this process; null for an analytic one.
+  [[nodiscard]] const Surface *target() const
+  {
+    return analytic_ ? nullptr : options_.is_self_contact() ? &surfaces_.impactor : &surfaces_.target.value();
+  }
+  [[nodiscard]] const std::vector<Index> &target_nodes() const
+  {
+    return options_.is_self_contact() ? surfaces_.nodes : surfaces_.target_nodes;
+  }
+  [[nodiscard]] Index n_nodes() const { return surfaces_.n_own; }
+  /// Position of impactor node i among the process's nodes.
+  [[nodiscard]] Index node(Index i) const { return surfaces_.nodes[i]; }
   [[nodiscard]] std::span<const double> areas() const { return areas_; }
+  /// Finds out which processes have which of the impactor's nodes. Collective.
+  void share(std::shared_ptr<MessageExchange> messages);
+  /// @param areas tributary ones, [n_nodes]
+  void set_areas(std::vector<double> areas) { areas_ = std::move(areas); }
   [[nodiscard]] double augmentation(Index i) const { return augmentation_[i]; }
   /// The part of r that is not the user's: makes a force of a gap, for norms.
   [[nodiscard]] double stiffness(Index i) const { return augmentation_[i] / options_.augmentation; }
@@ -51,14 +103,14 @@ public:
   {
     return analytic_ || (mortar_ ? mortar_->sees_target(i) : pairing_[i].face >= 0);
   }
+  /// Faces by their ids.
   [[nodiscard]] std::span<const Pair> pairing() const { return pairing_; }
-  [[nodiscard]] DetectionReport detection_report() const;
   /// How often node i went to another face within the increment.
   [[nodiscard]] int n_face_changes(Index i) const { return n_face_changes_[i]; }
 
   /// r from the stiffness of the bodies: mean of the diagonal at the impactor node, or on the target where the impactor
-  /// is rigid. @param diagonal [n_nodal], zero on rigid nodes
-  void set_augmentation(std::span<const double> diagonal);
+  /// is rigid. @param diagonal [n_nodal], zero on rigid nodes @param on_target its mean over the target's nodes
+  void set_augmentation(std::span<const double> diagonal, double on_target);
 
   /// Nodes of element i: the impactor node, then the face's, those that mortar couples it with, or the shape's point.
   [[nodiscard]] std::vector<Index> nodes(Index i) const;
@@ -67,10 +119,25 @@ public:
   /// are tied.
   void set_initial_gap(std::span<const double> displacement);
 
-  /// Detects in the given configuration. In small strain only the reference counts.
+  /// Whether pairs come of a search for faces (take_pairs), and not of couple() or an analytic shape.
+  [[nodiscard]] bool is_searched() const { return !analytic_ && !is_mortar(); }
+  [[nodiscard]] bool is_mortar() const { return options_.discretization == Discretization::mortar; }
+
+  /// Takes the faces that a search has found. @param found of the own nodes, faces by index on `target`
   /// @param keep hold on to the present face where the projection has hardly left it (within an increment)
-  /// @return whether the face of any node changed
-  bool detect(std::span<const double> displacement, double reach, bool keep);
+  /// @return whether the face of any node changed: then place_faces() is needed
+  bool take_pairs(const Pairing &found, const Surface &target, std::span<const double> displacement, bool keep);
+  /// Mortar, in the reference: couples what comes within `reach`, if the user gives no distance.
+  void couple(double reach);
+  /// Target nodes, by id, of present pairs and those at the increment's beginning.
+  [[nodiscard]] std::vector<GlobalIndex> wanted_nodes() const;
+  /// Takes the positions of the target nodes.
+  void place_faces(const std::function<Index(GlobalIndex)> &position_of);
+  /// Turns the tangential multipliers of nodes whose face take_pairs() changed into the frame of their new face.
+  void turn_multipliers(std::span<const double> displacement, std::span<double> multipliers);
+
+  /// Of couple(), or of what an analytic shape needs not search for; of this process's nodes.
+  [[nodiscard]] DetectionReport detection_report() const;
 
   /// Takes note of the state at an increment's beginning: from where slip counts. @return whether pairs that a failed
   /// attempt had changed were put back
@@ -97,21 +164,19 @@ public:
                          : contact_status(now, lambda, options_.friction_coefficient, augmentation_[i]);
   }
 
-  /// Turns the tangential multipliers of nodes whose face detect() changed into the frame of their new face.
-  void turn_multipliers(std::span<const double> displacement, std::span<double> multipliers);
-
-  /// Everything known at a converged state; also the source of what commit() remembers.
+  /// Everything known of the own nodes at a converged state; also the source of what commit() remembers.
   [[nodiscard]] ContactResult result(std::span<const double> displacement, std::span<const double> start,
                                      std::span<const double> multipliers);
   /// Adds the increment's slip to the totals.
   void commit(const ContactResult &result)
   {
-    total_slip_ = result.slip;
-    status_ = result.status;
+    std::copy_n(result.slip.begin(), total_slip_.size(), total_slip_.begin());
+    std::copy_n(result.status.begin(), status_.size(), status_.begin());
     start_pairing_ = pairing_;
+    start_faces_ = faces_;
   }
-  /// What commit() remembered; takes it up. @throws UserError where it is of other nodes
-  [[nodiscard]] ContactHistory history() const { return {start_pairing_, status_, total_slip_}; }
+  /// What commit() remembered; takes it up (place_faces() is needed then). @throws UserError where it is of other nodes
+  [[nodiscard]] ContactHistory history() const;
   void set_history(const ContactHistory &history);
   /// Status at the end of the last increment.
   [[nodiscard]] ContactStatus committed_status(Index i) const { return status_[i]; }
@@ -128,45 +193,67 @@ private:
     Eigen::Vector3d normal;
     std::array<Eigen::Vector3d, max_tangents> tangent;
   };
+  /// The own nodes' part of a coupling of whole surfaces.
+  struct MortarMeans
+  {
+    std::vector<char> sees; ///< [n_nodes]
+    std::vector<Eigen::Vector3d> normal;
+    std::vector<Index> offsets{0};    ///< [n_nodes + 1]
+    std::vector<GlobalIndex> targets; ///< ids of target nodes
+    std::vector<Index> positions;
+    std::vector<double> weight;
+
+    [[nodiscard]] bool sees_target(Index i) const { return sees[i] != 0; }
+    template<class T>
+    [[nodiscard]] std::span<const T> of(const std::vector<T> &values, Index i) const
+    {
+      return {values.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
+    }
+  };
   [[nodiscard]] ContactLinearisation linearise_with_origin(Index i, std::span<const double> displacement,
                                                            std::span<const double> start) const;
   void find_closing_origin(Index i, const ContactLinearisation &now, std::span<const double> displacement,
                            std::span<const double> start);
   void gather(std::span<const Index> nodes, std::span<const double> displacement, std::span<double> out) const;
   void add_reference(std::span<const Index> nodes, std::span<double> out) const;
+  [[nodiscard]] std::span<const Index> face_nodes(Index i) const;
   [[nodiscard]] std::span<const double> normals_of_face(Index i) const;
   void smooth_target_normals(std::span<const double> start);
-  [[nodiscard]] bool is_mortar() const { return options_.discretization == Discretization::mortar; }
   [[nodiscard]] std::vector<double> target_weights(Index i) const;
   [[nodiscard]] Eigen::Vector3d relative(Index i, std::span<const double> displacement) const;
   void require_meshed_sides() const;
-  void couple(double reach);
-  void report_mortar(double w);
-  [[nodiscard]] bool keeps_face(Index i, const Pair &found, std::span<const double> displacement) const;
+  [[nodiscard]] DetectionReport mortar_report() const;
+  void set_face(Index i, const Pair &pair, const Surface &target);
+  [[nodiscard]] bool keeps_face(Index i, const Pair &found, GlobalIndex face,
+                                std::span<const double> displacement) const;
 
-  const Mesh &mesh_;
+  const std::vector<double> &points_;
   int dim_;
   bool axisymmetric_;
   bool small_;
   ContactOptions options_;
-  std::shared_ptr<const Surface> impactor_, target_; ///< in self-contact the same
+  ContactSurfaces surfaces_;
   std::optional<Shape> analytic_;
   Index shape_node_ = -1;
   std::vector<double> areas_, augmentation_;
-  std::unique_ptr<Detector> detector_;    ///< node-to-face
-  std::optional<double> mortar_distance_; ///< the user's w
-  std::optional<MortarCoupling> mortar_;  ///< as last detected
-  DetectionReport mortar_report_;
-  Pairing pairing_, start_pairing_;    ///< now, and at the increment's beginning
-  std::vector<double> target_normals_; ///< at the corners of the target's faces at the increment's beginning, or empty
-  std::vector<int> n_face_changes_;    ///< within the increment
+  std::optional<double> mortar_distance_; ///< w: the user's, once coupled what was taken
+  std::optional<MortarMeans> mortar_;     ///< as last coupled
+  Pairing pairing_, start_pairing_;           ///< now, and at the increment's beginning; faces by their ids
+  TargetFaces faces_, start_faces_;           ///< with them
+  std::vector<Index> smoothed_positions_;     ///< of the whole target's nodes
+  std::vector<double> target_normals_;        ///< at the corners of its faces at the increment's beginning, or empty
+  std::vector<int> n_face_changes_;           ///< within the increment
   std::vector<Eigen::Vector3d> slip_origin_;
   std::vector<char> has_origin_;
   std::vector<double> start_gap_;
   std::vector<double> gap_offset_;    ///< initial gap that is taken as zero
   std::vector<ContactStatus> status_; ///< at the increment's beginning
   std::vector<double> total_slip_;    ///< [n * (dim-1)]
-  std::vector<OldFrame> old_frames_;  ///< of nodes whose face the last detect() changed, in 3D
+  std::vector<OldFrame> old_frames_;  ///< of nodes whose face the last take_pairs() changed, in 3D
   Index first_multiplier_ = 0;
 };
+
+/// Gives a result of own nodes those of others on the process's faces, and the sums and extremes of the whole.
+/// Collective. @param impactor_nodes ContactSurfaces::sharing
+void complete(ContactResult &result, const Sharing &impactor_nodes);
 } // namespace amontons

@@ -16,10 +16,8 @@ constexpr int many_face_changes = 4;
 
 DetectionReport ContactInterface::detection_report() const
 {
-  if (detector_)
-    return detector_->report();
   if (mortar_)
-    return mortar_report_;
+    return mortar_report();
   DetectionReport report;
   report.method = "analytic";
   report.n_pairs = n_nodes();
@@ -27,17 +25,19 @@ DetectionReport ContactInterface::detection_report() const
   return report;
 }
 
-bool ContactInterface::keeps_face(Index i, const Pair &found, std::span<const double> displacement) const
+/// @param face id of the found one
+bool ContactInterface::keeps_face(Index i, const Pair &found, GlobalIndex face,
+                                  std::span<const double> displacement) const
 {
   const Pair &old = pairing_[i];
   // Two sides that were both impactors would hold each other twice.
   if (found.reason == NoPairReason::target_side)
     return false;
-  if (old.face < 0 || found.face == old.face)
+  if (old.face < 0 || face == old.face)
     return old.face >= 0;
   const double hold = n_face_changes_[i] < many_face_changes ? face_hold : tired_face_hold;
   const ContactLinearisation now = linearise_with_origin(i, displacement, displacement);
-  const bool triangle = target_->face(old.face).size() == 3;
+  const bool triangle = face_nodes(i).size() == 3;
   const double a = now.xi[0], b = dim_ == 2 ? 0.5 : now.xi[1];
   const double low = std::min(a, b), high = triangle ? a + b : std::max(a, b);
   if (low < -hold || high > 1 + hold)
@@ -45,42 +45,40 @@ bool ContactInterface::keeps_face(Index i, const Pair &found, std::span<const do
   return std::abs(now.gap) <= found.distance * (1 + 1e-6) || n_face_changes_[i] >= many_face_changes;
 }
 
-bool ContactInterface::detect(std::span<const double> displacement, double reach, bool keep)
+void ContactInterface::set_face(Index i, const Pair &pair, const Surface &target)
+{
+  GlobalIndex *id = faces_.ids.data() + static_cast<std::ptrdiff_t>(i) * max_face_nodes;
+  std::fill_n(id, max_face_nodes, -1);
+  pairing_[i] = pair;
+  if (pair.face < 0)
+    return;
+  for (const Index node : target.face(pair.face))
+    *id++ = target.node_ids[node];
+  pairing_[i].face = static_cast<Index>(target.face_ids[pair.face]);
+}
+
+bool ContactInterface::take_pairs(const Pairing &found, const Surface &target, std::span<const double> displacement,
+                                  bool keep)
 {
   old_frames_.clear();
-  if (analytic_)
-    return false;
-  if (is_mortar())
-  {
-    couple(reach);
-    return true;
-  }
-  std::vector<double> impactor_x(impactor_->reference), target_x(target_->reference);
-  if (!small_)
-    for (auto [surface, x] : {std::pair{impactor_.get(), &impactor_x}, std::pair{target_.get(), &target_x}})
-      for (Index i = 0; i < surface->n_nodes(); ++i)
-        for (int c = 0; c < dim_; ++c)
-          (*x)[i * dim_ + c] += displacement[static_cast<std::size_t>(surface->node_ids[i]) * dim_ + c];
-
-  const Pairing &found = detector_->detect(impactor_x, target_x, reach);
   bool changed = false;
   for (Index i = 0; i < n_nodes(); ++i)
   {
-    if (found[i].face == pairing_[i].face)
-    {
-      pairing_[i] = found[i];
+    const GlobalIndex face = found[i].face < 0 ? -1 : target.face_ids[found[i].face];
+    const bool same = face == pairing_[i].face;
+    if (!same && keep && keeps_face(i, found[i], face, displacement))
       continue;
-    }
-    if (keep && keeps_face(i, found[i], displacement))
-      continue;
-    changed = true;
-    ++n_face_changes_[i];
-    if (pairing_[i].face >= 0 && found[i].face >= 0 && dim_ == 3)
+    if (!same)
     {
-      const ContactLinearisation old = linearise_with_origin(i, displacement, displacement);
-      old_frames_.push_back({i, old.normal, old.tangent});
+      changed = true;
+      ++n_face_changes_[i];
+      if (pairing_[i].face >= 0 && face >= 0 && dim_ == 3)
+      {
+        const ContactLinearisation old = linearise_with_origin(i, displacement, displacement);
+        old_frames_.push_back({i, old.normal, old.tangent});
+      }
     }
-    pairing_[i] = found[i];
+    set_face(i, found[i], target);
   }
   return changed;
 }

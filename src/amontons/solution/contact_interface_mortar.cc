@@ -28,13 +28,14 @@ void ContactInterface::require_meshed_sides() const
 void ContactInterface::couple(double reach)
 {
   const double w = mortar_distance_.value_or(reach);
-  const FaceBoxes boxes(*target_, target_->reference);
-  mortar_ =
-      couple_mortar({*impactor_, impactor_->reference}, {*target_, target_->reference}, axisymmetric_, w,
+  const Surface &impactor = *surfaces_.whole_impactor, &target = *surfaces_.whole_target;
+  const FaceBoxes boxes(target, target.reference);
+  const MortarCoupling whole =
+      couple_mortar({impactor, impactor.reference}, {target, target.reference}, axisymmetric_, w,
                     [&](const Eigen::AlignedBox3d &box, std::vector<Index> &faces) { boxes.meeting(box, faces); });
-  if (const Index f = mortar_->doubled_face; f >= 0)
+  if (const Index f = whole.doubled_face; f >= 0)
   {
-    const FaceCoordinates face = gather_face(dim_, impactor_->face(f), impactor_->reference);
+    const FaceCoordinates face = gather_face(dim_, impactor.face(f), impactor.reference);
     const Eigen::Vector3d middle = face_point(face, face_centre(face));
     throw UserError(options_.where, "contact '" + options_.name + "': the impactor's face at (" +
                                         std::to_string(middle.x()) + ", " + std::to_string(middle.y()) + ", " +
@@ -43,36 +44,50 @@ void ContactInterface::couple(double reach)
                                         "'detection: distance' below the distance of the farther one, now " +
                                         std::to_string(w));
   }
+  MortarMeans &means = mortar_.emplace();
   for (Index i = 0; i < n_nodes(); ++i)
-    if (mortar_->sees_target(i))
-      areas_[i] = mortar_->area[i];
-  report_mortar(w);
+  {
+    const auto place = std::lower_bound(impactor.node_ids.begin(), impactor.node_ids.end(), this->impactor().node_ids[i]);
+    const auto j = static_cast<Index>(place - impactor.node_ids.begin());
+    means.sees.push_back(whole.sees_target(j) ? 1 : 0);
+    means.normal.push_back(whole.normal[j]);
+    for (const Index node : whole.targets_of(j))
+      means.targets.push_back(target.node_ids[node]);
+    const auto weights = whole.weights_of(j);
+    means.weight.insert(means.weight.end(), weights.begin(), weights.end());
+    means.offsets.push_back(static_cast<Index>(means.targets.size()));
+    if (whole.sees_target(j))
+      areas_[i] = whole.area[j];
+  }
+  mortar_distance_ = w;
+  surfaces_.whole_impactor.reset();
+  surfaces_.whole_target.reset();
 }
 
-void ContactInterface::report_mortar(double w)
+DetectionReport ContactInterface::mortar_report() const
 {
-  DetectionReport &report = mortar_report_;
-  report = {};
+  DetectionReport report;
   report.method = "mortar";
-  report.distance = w;
-  const std::vector<double> still(static_cast<std::size_t>(mesh_.n_nodes()) * dim_, 0.0);
+  report.distance = mortar_distance_.value();
+  const std::vector<double> still(points_.size(), 0.0);
   for (Index i = 0; i < n_nodes(); ++i)
   {
     if (!mortar_->sees_target(i))
       continue;
     ++report.n_pairs;
     const double gap = linearise_with_origin(i, still, still).gap;
-    if (gap > -round_off * w)
+    if (gap > -round_off * report.distance)
       continue;
     ++report.n_penetrations;
     if (gap >= report.deepest)
       continue;
     report.deepest = gap;
     report.deepest_node = i;
-    std::copy_n(impactor_->reference.begin() + static_cast<std::ptrdiff_t>(i) * dim_, dim_,
+    std::copy_n(impactor().reference.begin() + static_cast<std::ptrdiff_t>(i) * dim_, dim_,
                 report.deepest_point.begin());
   }
   report.pairs_by_kind["mortar"] = report.n_pairs;
   report.unpaired_by_reason["uncovered"] = n_nodes() - report.n_pairs;
+  return report;
 }
 } // namespace amontons

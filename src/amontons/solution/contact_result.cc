@@ -1,19 +1,23 @@
 #include "amontons/solution/contact_interface.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace amontons
 {
 namespace
 {
-ContactResult empty_result(const std::string &name, const Surface &impactor, std::vector<double> areas)
+ContactResult empty_result(const std::string &name, const ContactSurfaces &surfaces, std::span<const double> areas)
 {
+  const Surface &impactor = surfaces.impactor;
   const auto n = static_cast<std::size_t>(impactor.n_nodes());
   const auto dim = static_cast<std::size_t>(impactor.dim);
   ContactResult out;
   out.name = name;
   out.impactor = &impactor;
+  out.nodes = surfaces.nodes;
+  out.n_own = out.n_nodes = surfaces.n_own;
   out.dim = impactor.dim;
   out.gap.assign(n, std::numeric_limits<double>::infinity());
   out.pressure.assign(n, 0);
@@ -21,7 +25,8 @@ ContactResult empty_result(const std::string &name, const Surface &impactor, std
   out.slip.assign(n * (dim - 1), 0);
   out.status.assign(n, ContactStatus::open);
   out.force.assign(n * dim, 0);
-  out.area = std::move(areas);
+  out.area.assign(areas.begin(), areas.end());
+  out.area.resize(n, 0);
   out.min_gap = std::numeric_limits<double>::infinity();
   return out;
 }
@@ -52,7 +57,7 @@ void add_closed_node(ContactResult &out, Index i, const ContactLinearisation &no
 ContactResult ContactInterface::result(std::span<const double> displacement, std::span<const double> start,
                                        std::span<const double> multipliers)
 {
-  ContactResult out = empty_result(options_.name, *impactor_, areas_);
+  ContactResult out = empty_result(options_.name, surfaces_, areas_);
   const int n_tangents = dim_ - 1;
   for (Index i = 0; i < n_nodes(); ++i)
   {
@@ -71,5 +76,49 @@ ContactResult ContactInterface::result(std::span<const double> displacement, std
       out.slip[i * n_tangents + a] = total_slip_[i * n_tangents + a] + now.slip[a];
   }
   return out;
+}
+
+namespace
+{
+void add_up(ContactResult &result, const Sharing &processes)
+{
+  std::array<double, 11> sums{static_cast<double>(result.n_nodes),
+                              static_cast<double>(result.n_active),
+                              static_cast<double>(result.n_stick),
+                              static_cast<double>(result.n_slip),
+                              result.contact_area};
+  std::copy_n(result.normal_force.begin(), 3, sums.begin() + 5);
+  std::copy_n(result.tangential_force.begin(), 3, sums.begin() + 8);
+  processes.sum_over_processes(sums);
+  result.n_nodes = static_cast<GlobalIndex>(sums[0]);
+  result.n_active = static_cast<int>(sums[1]);
+  result.n_stick = static_cast<int>(sums[2]);
+  result.n_slip = static_cast<int>(sums[3]);
+  result.contact_area = sums[4];
+  std::copy_n(sums.begin() + 5, 3, result.normal_force.begin());
+  std::copy_n(sums.begin() + 8, 3, result.tangential_force.begin());
+  std::array<double, 2> extremes{result.max_pressure, -result.min_gap};
+  processes.maximum_over_processes(extremes);
+  result.max_pressure = extremes[0];
+  result.min_gap = -extremes[1];
+}
+} // namespace
+
+void complete(ContactResult &result, const Sharing &impactor_nodes)
+{
+  add_up(result, impactor_nodes);
+  const int n_tangents = result.dim - 1;
+  impactor_nodes.take_owners(result.gap);
+  impactor_nodes.take_owners(result.pressure);
+  impactor_nodes.take_owners(result.traction, n_tangents);
+  impactor_nodes.take_owners(result.slip, n_tangents);
+  impactor_nodes.take_owners(result.force, result.dim);
+  impactor_nodes.take_owners(result.area);
+  std::vector<double> status;
+  for (const ContactStatus one : result.status)
+    status.push_back(static_cast<double>(one));
+  impactor_nodes.take_owners(status);
+  for (std::size_t i = 0; i < status.size(); ++i)
+    result.status[i] = static_cast<ContactStatus>(status[i]);
 }
 } // namespace amontons

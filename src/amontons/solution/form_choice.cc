@@ -22,24 +22,14 @@ std::unique_ptr<SystemForm> make_feti(const Model &model)
 {
   FetiOptions options;
   options.nodes = model.nodes();
-  options.points = model.mesh().points;
+  options.points = model.points();
   options.axisymmetric = model.options().mesh.kinematics == Kinematics::axisymmetric;
   for (const ContactInterface &contact : model.contacts())
-    for (const Surface *surface : {&contact.impactor(), contact.target()})
-      if (surface)
-        options.contact_nodes.insert(options.contact_nodes.end(), surface->node_ids.begin(), surface->node_ids.end());
+    for (const std::vector<Index> *nodes : {&contact.surfaces().nodes, &contact.target_nodes()})
+      options.contact_nodes.insert(options.contact_nodes.end(), nodes->begin(), nodes->end());
   return std::make_unique<FetiForm>(model.layout(), model.bodies().subdomains(), std::move(options));
 }
 
-/// Places of the nodal components in the reference.
-std::vector<double> reference_places(const Model &model)
-{
-  std::vector<double> out;
-  for (Index node = 0; node < model.n_nodal() / model.dim(); ++node)
-    for (int c = 0; c < model.dim(); ++c)
-      out.push_back(model.reference(node)[c]);
-  return out;
-}
 /// 3D displacements from which multigrid is faster than a factorisation (docs/decisions/0011), and subdomains are
 /// faster than both (0012), as measured.
 constexpr GlobalIndex amg_from = 15000, feti_from = 40000;
@@ -98,6 +88,6 @@ std::unique_ptr<SystemForm> make_form(const Model &model, LinearSolverType linea
     return std::make_unique<CoupledForm>(model.layout(), model.bodies().subdomains(), make_direct_solver());
   return std::make_unique<CondensedForm>(model.layout(), model.bodies().subdomains(),
                                          linear == LinearSolverType::amg ? make_amg_solver() : make_direct_solver(),
-                                         reference_places(model));
+                                         model.points());
 }
 } // namespace amontons

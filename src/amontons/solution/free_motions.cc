@@ -4,9 +4,11 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace amontons
 {
@@ -27,10 +29,16 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd &gram)
     ++n;
   return eigen.eigenvectors().leftCols(n);
 }
+
+void sum_up(const Sharing &processes, Eigen::MatrixXd &matrix)
+{
+  processes.sum_over_processes({matrix.data(), static_cast<std::size_t>(matrix.size())});
+}
 } // namespace
 
 FreeMotions::FreeMotions(const Model &model)
   : model_(model)
+  , halo_version_(model.halo_version())
 {
   find_parts();
   make_modes();
@@ -39,7 +47,7 @@ FreeMotions::FreeMotions(const Model &model)
   if (modes_.empty())
     return;
   add_supports(support_gram_);
-  model_.nodes().sum_over_processes({support_gram_.data(), static_cast<std::size_t>(support_gram_.size())});
+  sum_up(model_.nodes(), support_gram_);
   any_ = null_space(support_gram_).cols() > 0;
 }
 
@@ -68,37 +76,49 @@ void FreeMotions::make_modes()
   }
 }
 
-Eigen::Vector3d FreeMotions::place(const State &state, Index node) const
+/// Nodes that came to the halo belong to what their owners say.
+void FreeMotions::follow_halo()
+{
+  if (std::exchange(halo_version_, model_.halo_version()) == model_.halo_version())
+    return;
+  std::vector<double> parts(part_of_node_.begin(), part_of_node_.begin() + model_.n_state_nodes());
+  parts.resize(model_.node_ids().size(), -1);
+  model_.nodes().take_owners(parts);
+  part_of_node_.assign(parts.begin(), parts.end());
+}
+
+Eigen::Vector3d FreeMotions::place(Displacement displacement, Index node) const
 {
   Eigen::Vector3d x = model_.reference(node);
   if (!model_.small_strain())
     for (int c = 0; c < model_.dim(); ++c)
-      x[c] += state.displacement[static_cast<std::size_t>(node) * model_.dim() + c];
+      x[c] += displacement[static_cast<std::size_t>(node) * model_.dim() + c];
   return x;
 }
 
-Eigen::Vector3d FreeMotions::velocity(const Mode &mode, Index node, const Eigen::Vector3d &at) const
+Eigen::Vector3d FreeMotions::velocity(const Mode &mode, const Carrier &carrier, const Eigen::Vector3d &at) const
 {
-  if (part_of_node_[node] != mode.component)
+  if (carrier.part != mode.component)
     return Eigen::Vector3d::Zero();
   if (!mode.rotation)
     return Eigen::Vector3d::Unit(mode.axis);
-  const int rigid = model_.rigid_of_node()[node];
-  const Eigen::Vector3d pivot = rigid >= 0 ? model_.rigid().bodies()[rigid].point : center_[mode.component];
+  const Eigen::Vector3d pivot =
+      carrier.rigid >= 0 ? model_.rigid().bodies()[carrier.rigid].point : center_[mode.component];
   return Eigen::Vector3d::Unit(mode.axis).cross(at - pivot) / size_[mode.component];
 }
 
-Eigen::VectorXd FreeMotions::over_modes(const State &state, int contact, Index node, const ContactVector &row) const
+Eigen::VectorXd FreeMotions::over_modes(Displacement displacement, int contact, Index node,
+                                        const ContactVector &row) const
 {
   const int dim = model_.dim();
   const std::vector<Index> nodes = model_.contacts()[contact].nodes(node);
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(modes_.size()));
   for (std::size_t k = 0; k < nodes.size(); ++k)
   {
-    const Eigen::Vector3d at = place(state, nodes[k]);
+    const Eigen::Vector3d at = place(displacement, nodes[k]);
     for (std::size_t m = 0; m < modes_.size(); ++m)
     {
-      const Eigen::Vector3d v = velocity(modes_[m], nodes[k], at);
+      const Eigen::Vector3d v = velocity(modes_[m], carrier(nodes[k]), at);
       for (int c = 0; c < dim; ++c)
         out[static_cast<Eigen::Index>(m)] += row[static_cast<Eigen::Index>(k) * dim + c] * v[c];
     }
@@ -113,7 +133,7 @@ void FreeMotions::add_supports(Eigen::MatrixXd &gram) const
   {
     Eigen::VectorXd row(gram.rows());
     for (Eigen::Index m = 0; m < row.size(); ++m)
-      row[m] = velocity(modes_[m], node, model_.reference(node))[component];
+      row[m] = velocity(modes_[m], carrier(node), model_.reference(node))[component];
     gram += row * row.transpose();
   };
   for (const HeldComponent &held : model_.supports().held())
@@ -137,28 +157,25 @@ void FreeMotions::check_restrained() const
 {
   if (!any_)
     return;
-  Eigen::MatrixXd gram = support_gram_;
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(support_gram_.rows(), support_gram_.cols());
   for (const ContactInterface &contact : model_.contacts())
   {
     // Whichever face a node will meet: it sticks to the target as to one body.
-    const Index target_node = contact.target() ? static_cast<Index>(contact.target()->node_ids.front()) : -1;
-    for (const GlobalIndex id : contact.impactor().node_ids)
+    const Carrier target = carrier_of_target(contact);
+    for (Index i = 0; i < contact.n_nodes(); ++i)
     {
-      const auto node = static_cast<Index>(id);
-      const Eigen::Vector3d at = model_.reference(node);
+      const Eigen::Vector3d at = model_.reference(contact.node(i));
       for (int c = 0; c < model_.dim(); ++c)
       {
         Eigen::VectorXd row(gram.rows());
         for (Eigen::Index m = 0; m < row.size(); ++m)
-        {
-          row[m] = velocity(modes_[m], node, at)[c];
-          if (target_node >= 0)
-            row[m] -= velocity(modes_[m], target_node, at)[c];
-        }
+          row[m] = velocity(modes_[m], carrier(contact.node(i)), at)[c] - velocity(modes_[m], target, at)[c];
         gram += row * row.transpose();
       }
     }
   }
+  sum_up(model_.nodes(), gram);
+  gram += support_gram_;
   const Eigen::MatrixXd free = null_space(gram);
   if (free.cols() == 0)
     return;
@@ -169,6 +186,27 @@ void FreeMotions::check_restrained() const
                                   "): neither a support nor any of its contacts holds it");
 }
 
+FreeMotions::Carrier FreeMotions::carrier_of_target(const ContactInterface &contact) const
+{
+  const Sharing &nodes = model_.nodes();
+  const std::vector<Index> &targets = contact.target_nodes();
+  double lowest = -HUGE_VAL;
+  Index node = -1;
+  for (const Index target : targets)
+    if (const auto number = -static_cast<double>(model_.node_id(target)); number > lowest)
+    {
+      lowest = number;
+      node = target;
+    }
+  // All that have it say the same.
+  const bool tells = nodes.maximum_over_processes(lowest) == lowest && node >= 0;
+  std::array<double, 2> told{-1, -1};
+  if (tells)
+    told = {static_cast<double>(carrier(node).part), static_cast<double>(carrier(node).rigid)};
+  nodes.maximum_over_processes(told);
+  return {static_cast<int>(told[0]), static_cast<int>(told[1])};
+}
+
 std::string FreeMotions::describe(const Eigen::VectorXd &motion) const
 {
   Eigen::Index m = 0;
@@ -176,7 +214,7 @@ std::string FreeMotions::describe(const Eigen::VectorXd &motion) const
   return std::string(modes_[m].rotation ? "rotation about " : "translation along ") + "xyz"[modes_[m].axis];
 }
 
-Eigen::VectorXd FreeMotions::loads(const State &state, std::span<const double> residual, double time) const
+Eigen::VectorXd FreeMotions::loads(Displacement displacement, std::span<const double> residual, double time) const
 {
   const int dim = model_.dim();
   const auto n_modes = static_cast<Eigen::Index>(modes_.size());
@@ -185,7 +223,7 @@ Eigen::VectorXd FreeMotions::loads(const State &state, std::span<const double> r
     if (part_of_node_[node] >= 0 && model_.nodes().is_own(node))
       for (Eigen::Index m = 0; m < n_modes; ++m)
       {
-        const Eigen::Vector3d v = velocity(modes_[m], node, place(state, node));
+        const Eigen::Vector3d v = velocity(modes_[m], carrier(node), place(displacement, node));
         for (int c = 0; c < dim; ++c)
           load[m] -= residual[static_cast<std::size_t>(node) * dim + c] * v[c];
       }
@@ -202,58 +240,84 @@ Eigen::VectorXd FreeMotions::loads(const State &state, std::span<const double> r
   return load;
 }
 
-std::optional<std::size_t> FreeMotions::first_to_close(const State &state, std::span<const CandidateNode> candidates,
-                                                       const Eigen::VectorXd &motion) const
+std::optional<Eigen::VectorXd> FreeMotions::close_first(Displacement displacement,
+                                                        std::vector<CandidateNode> &candidates,
+                                                        const Eigen::VectorXd &motion, Decision &decision) const
 {
-  double soonest = std::numeric_limits<double>::infinity();
-  std::optional<std::size_t> chosen;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  double soonest = never;
+  std::size_t chosen = 0;
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(motion.size());
   for (std::size_t k = 0; k < candidates.size(); ++k)
   {
     const CandidateNode &c = candidates[k];
-    const double rate = over_modes(state, c.contact, c.node, c.gap_gradient).dot(motion / motion.norm());
+    const Eigen::VectorXd over = over_modes(displacement, c.contact, c.node, c.gap_gradient);
+    const double rate = over.dot(motion / motion.norm());
     if (rate >= -least_approach || c.gap / -rate >= soonest)
       continue;
     soonest = c.gap / -rate;
     chosen = k;
+    row = over;
   }
-  return chosen;
+  const Sharing &processes = model_.nodes();
+  const double first = -processes.maximum_over_processes(-soonest);
+  if (first == never)
+    return {};
+  decision.closes = true;
+  // Of nodes that would close at once that of the lowest contact and number.
+  double place = -HUGE_VAL;
+  if (soonest == first)
+  {
+    const CandidateNode &c = candidates[chosen];
+    place = -(static_cast<double>(c.contact) * static_cast<double>(model_.mesh().n_global_nodes) +
+              static_cast<double>(model_.node_id(model_.contacts()[c.contact].node(c.node))));
+  }
+  if (place == processes.maximum_over_processes(place) && soonest == first)
+  {
+    decision.closed.emplace_back(candidates[chosen].contact, candidates[chosen].node);
+    candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(chosen));
+  }
+  else
+    row.setZero();
+  processes.sum_over_processes({row.data(), static_cast<std::size_t>(row.size())});
+  return row;
 }
 
-FreeMotions::Decision FreeMotions::decide(const State &state, std::span<const HoldingNode> holding,
+FreeMotions::Decision FreeMotions::decide(Displacement displacement, std::span<const HoldingNode> holding,
                                           std::vector<CandidateNode> candidates, std::span<const double> residual,
-                                          double time, double force_scale) const
+                                          double time, double force_scale)
 {
+  follow_halo();
   Decision decision;
-  Eigen::MatrixXd gram = support_gram_;
-  const auto hold = [&](int contact, Index node, const ContactVector &row)
-  {
-    const Eigen::VectorXd r = over_modes(state, contact, node, row);
-    gram += r * r.transpose();
-  };
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(support_gram_.rows(), support_gram_.cols());
   for (const HoldingNode &node : holding)
-    hold(node.contact, node.node, node.row);
-  const Eigen::VectorXd load = loads(state, residual, time);
+  {
+    const Eigen::VectorXd row = over_modes(displacement, node.contact, node.node, node.row);
+    gram += row * row.transpose();
+  }
+  sum_up(model_.nodes(), gram);
+  gram += support_gram_;
+  const Eigen::VectorXd load = loads(displacement, residual, time);
   while (true)
   {
     const Eigen::MatrixXd free = null_space(gram);
     if (free.cols() == 0)
-      return decision;
+      break;
     const Eigen::VectorXd motion = free * (free.transpose() * load);
     const bool loaded = motion.norm() > load_share * force_scale && force_scale > 0;
-    const auto chosen = loaded ? first_to_close(state, candidates, motion) : std::nullopt;
-    if (chosen)
+    if (const auto row = loaded ? close_first(displacement, candidates, motion, decision) : std::nullopt)
     {
-      hold(candidates[*chosen].contact, candidates[*chosen].node, candidates[*chosen].gap_gradient);
-      decision.closed.emplace_back(candidates[*chosen].contact, candidates[*chosen].node);
-      candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(*chosen));
+      gram += *row * row->transpose();
       continue;
     }
     if (loaded)
       throw NumericalFailure(describe_loaded(motion));
     for (Eigen::Index k = 0; k < free.cols(); ++k)
-      decision.held_modes.push_back(over_unknowns(state, free.col(k)));
-    return decision;
+      decision.held_modes.push_back(over_unknowns(displacement, free.col(k)));
+    break;
   }
+  std::sort(decision.closed.begin(), decision.closed.end());
+  return decision;
 }
 
 std::string FreeMotions::describe_loaded(const Eigen::VectorXd &motion) const
@@ -266,7 +330,7 @@ std::string FreeMotions::describe_loaded(const Eigen::VectorXd &motion) const
          describe(motion) + "): neither a support nor a contact holds the load of " + force.str();
 }
 
-std::vector<double> FreeMotions::over_unknowns(const State &state, const Eigen::VectorXd &motion) const
+std::vector<double> FreeMotions::over_unknowns(Displacement displacement, const Eigen::VectorXd &motion) const
 {
   std::vector<double> nodal(static_cast<std::size_t>(model_.n_nodal()), 0.0);
   for (Index node = 0; node < static_cast<Index>(part_of_node_.size()); ++node)
@@ -274,7 +338,7 @@ std::vector<double> FreeMotions::over_unknowns(const State &state, const Eigen::
     {
       Eigen::Vector3d v = Eigen::Vector3d::Zero();
       for (std::size_t m = 0; m < modes_.size(); ++m)
-        v += motion[static_cast<Eigen::Index>(m)] * velocity(modes_[m], node, place(state, node));
+        v += motion[static_cast<Eigen::Index>(m)] * velocity(modes_[m], carrier(node), place(displacement, node));
       for (int c = 0; c < model_.dim(); ++c)
         nodal[static_cast<std::size_t>(node) * model_.dim() + c] = std::abs(v[c]) > 1e-12 ? v[c] : 0;
     }

@@ -35,6 +35,7 @@ struct CandidateNode
 class FreeMotions
 {
 public:
+  /// Collective, as all members.
   explicit FreeMotions(const Model &model);
 
   /// Could any body move without its contacts? If not, nothing of this class is needed.
@@ -45,16 +46,18 @@ public:
 
   struct Decision
   {
-    std::vector<std::pair<int, Index>> closed;   ///< (contact, node) to take as closed in this iteration
+    bool closes = false;                         ///< whether any process has a node to take as closed
+    std::vector<std::pair<int, Index>> closed;   ///< own (contact, node) to take as closed in this iteration
     std::vector<std::vector<double>> held_modes; ///< over the displacement unknowns
   };
+  /// @param displacement nodal, with the halo @param holding, candidates of this process
   /// @param residual nodal residual (internal - external + contact), [n_nodal], without the rigid bodies' own forces,
   ///        which are taken at `time`
   /// @param force_scale forces below 1e-10 of it are none
   /// @throws NumericalFailure: a load that nothing can hold
-  [[nodiscard]] Decision decide(const State &state, std::span<const HoldingNode> holding,
+  [[nodiscard]] Decision decide(std::span<const double> displacement, std::span<const HoldingNode> holding,
                                 std::vector<CandidateNode> candidates, std::span<const double> residual, double time,
-                                double force_scale) const;
+                                double force_scale);
 
 private:
   struct Mode
@@ -69,22 +72,37 @@ private:
   void gather_parts(std::vector<std::pair<double, double>> &parts) const;
   void find_parts();
   void make_modes();
+  /// What moves with a node.
+  struct Carrier
+  {
+    int part = -1, rigid = -1; ///< connected part, rigid body
+  };
+  [[nodiscard]] Carrier carrier(Index node) const { return {part_of_node_[node], model_.rigid_of_node()[node]}; }
+  /// What carries the node of a contact's target with the lowest number.
+  [[nodiscard]] Carrier carrier_of_target(const ContactInterface &contact) const;
+  void follow_halo();
+  using Displacement = std::span<const double>; ///< nodal
   /// Velocity of a node in a mode, per unit of the mode (rotations scaled to length by the part's size).
-  [[nodiscard]] Eigen::Vector3d velocity(const Mode &mode, Index node, const Eigen::Vector3d &place) const;
-  [[nodiscard]] Eigen::Vector3d place(const State &state, Index node) const;
+  [[nodiscard]] Eigen::Vector3d velocity(const Mode &mode, const Carrier &carrier, const Eigen::Vector3d &place) const;
+  [[nodiscard]] Eigen::Vector3d place(Displacement displacement, Index node) const;
   /// Row of a contact element over the modes.
-  [[nodiscard]] Eigen::VectorXd over_modes(const State &state, int contact, Index node, const ContactVector &row) const;
+  [[nodiscard]] Eigen::VectorXd over_modes(Displacement displacement, int contact, Index node,
+                                           const ContactVector &row) const;
   void add_supports(Eigen::MatrixXd &gram) const;
-  [[nodiscard]] std::vector<double> over_unknowns(const State &state, const Eigen::VectorXd &motion) const;
+  [[nodiscard]] std::vector<double> over_unknowns(Displacement displacement, const Eigen::VectorXd &motion) const;
   /// Load along each mode, the rigid bodies' own forces included.
-  [[nodiscard]] Eigen::VectorXd loads(const State &state, std::span<const double> residual, double time) const;
-  [[nodiscard]] std::optional<std::size_t> first_to_close(const State &state, std::span<const CandidateNode> candidates,
-                                                          const Eigen::VectorXd &motion) const;
+  [[nodiscard]] Eigen::VectorXd loads(Displacement displacement, std::span<const double> residual, double time) const;
+  /// The row, over the modes, of the pair that a motion would close first, of all processes; closed in `decision` by
+  /// who has it, and no longer a candidate there. None where no pair can stop the motion.
+  [[nodiscard]] std::optional<Eigen::VectorXd> close_first(Displacement displacement,
+                                                           std::vector<CandidateNode> &candidates,
+                                                           const Eigen::VectorXd &motion, Decision &decision) const;
   [[nodiscard]] std::string describe_loaded(const Eigen::VectorXd &motion) const;
   [[nodiscard]] std::string describe(const Eigen::VectorXd &motion) const;
 
   const Model &model_;
   std::vector<int> part_of_node_; ///< connected part, -1: cannot move (held rigid bodies, unused nodes)
+  int halo_version_;              ///< to which it belongs
   std::vector<int> body_of_part_; ///< position in the deck's bodies
   std::vector<Eigen::Vector3d> center_;
   std::vector<double> size_;

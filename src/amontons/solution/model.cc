@@ -7,22 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace amontons
 {
 namespace
 {
-/// Components along which a node of a rigid body moves when its body turns about an axis.
-int n_spins(int dim)
-{
-  return dim == 2 ? 1 : 3;
-}
-int spin_axis(int dim, int k)
-{
-  return dim == 2 ? 2 : k;
-}
-
 /// Whether a facet lies between two cells only the whole mesh can tell.
 void check_pressures(const Mesh &mesh, const ProblemOptions &options, const std::vector<bool> &is_rigid)
 {
@@ -57,12 +48,47 @@ RigidParts rigid_parts(const Mesh &mesh, const std::vector<BodyOptions> &bodies)
   }
   return out;
 }
+
+/// Whether smoothed normals at the target's corners are wanted, for which every process needs the faces round them.
+bool has_smoothed_target(const ContactOptions &contact, Strain strain)
+{
+  return strain == Strain::finite && contact.normals == TargetNormals::smoothed &&
+         contact.discretization == Discretization::node_to_face;
+}
+
+/// The surface with the nodes that are the process's own before those of its faces that are not; others are left out.
+Surface own_first(const Surface &surface, const std::vector<char> &is_own)
+{
+  std::vector<Index> order;
+  for (Index i = 0; i < surface.n_nodes(); ++i)
+    if (is_own[i] != 0)
+      order.push_back(i);
+  for (Index i = 0; i < surface.n_nodes(); ++i)
+    if (is_own[i] == 0 && !surface.faces_of_node(i).empty())
+      order.push_back(i);
+  Surface out = surface;
+  out.node_ids.clear();
+  out.reference.clear();
+  std::vector<Index> place(is_own.size(), -1);
+  for (const Index i : order)
+  {
+    place[i] = out.n_nodes();
+    out.node_ids.push_back(surface.node_ids[i]);
+    const auto x = surface.reference.begin() + static_cast<std::ptrdiff_t>(i) * surface.dim;
+    out.reference.insert(out.reference.end(), x, x + surface.dim);
+  }
+  for (Index &node : out.face_nodes)
+    node = place[node];
+  out.build_adjacency();
+  return out;
+}
 } // namespace
 
 Model::Model(const ProblemOptions &options, std::shared_ptr<MessageExchange> messages)
   : options_(options)
   , messages_(std::move(messages))
 {
+  read_part();
   const auto on_all = [this](void (Model::*work)())
   {
     if (messages_)
@@ -70,10 +96,10 @@ Model::Model(const ProblemOptions &options, std::shared_ptr<MessageExchange> mes
     else
       (this->*work)();
   };
-  read_part();
   on_all(&Model::build_bodies);
+  number_nodes({});
   on_all(&Model::build_contacts);
-  share_nodes();
+  build_search();
   build_layout();
 }
 
@@ -85,8 +111,15 @@ void Model::read_whole(int n_processes)
     throw UserError(options_.mesh.where, "the mesh is " + std::to_string(mesh().dim) +
                                              "-dimensional and does not fit the kinematics asked for");
   for (const ContactOptions &contact : options_.contact)
-    for (Surface &side : contact_sides(mesh(), contact, options_.bodies))
-      part_.surfaces.push_back(std::move(side));
+  {
+    std::vector<Surface> sides = contact_sides(mesh(), contact, options_.bodies);
+    const bool is_analytic = sides.size() == 1 && !contact.is_self_contact();
+    if (contact.discretization == Discretization::mortar)
+      part_.whole_surfaces.insert(part_.whole_surfaces.end(), sides.begin(), sides.end());
+    else if (has_smoothed_target(contact, options_.strain) && !is_analytic)
+      part_.whole_surfaces.push_back(sides.back());
+    std::move(sides.begin(), sides.end(), std::back_inserter(part_.surfaces));
+  }
   part_.subdomain_of_cell = make_partition(options_, mesh(), n_processes);
   problem_key_ = amontons::problem_key(options_, mesh());
 }
@@ -106,6 +139,10 @@ void Model::read_part()
   {
     read_whole(all.size());
     rigid = rigid_parts(mesh(), options_.bodies);
+    std::vector<Index> &everywhere = rigid.nodes;
+    if (options_.strain == Strain::finite)
+      for (const Surface &smoothed : part_.whole_surfaces) // its normals turn with its nodes
+        everywhere.insert(everywhere.end(), smoothed.node_ids.begin(), smoothed.node_ids.end());
     check_pressures(mesh(), options_, rigid.is_rigid);
     process_of_cell = processes_of_cells(mesh(), part_.subdomain_of_cell, rigid.is_rigid, all.size());
   };
@@ -127,31 +164,35 @@ void Model::build_bodies()
       std::make_unique<Supports>(mesh(), kinematics, options_.bodies, options_.boundary, *rigid_, options_.loading.end);
   bodies_ = std::make_unique<BodyAssembly>(mesh(), kinematics, options_.strain, options_.bodies, options_.boundary,
                                            part_.subdomain_of_cell);
-
-  rigid_of_node_.assign(static_cast<std::size_t>(mesh().n_nodes() + rigid_->n_extra_nodes()), -1);
-  for (std::size_t b = 0; b < rigid_->bodies().size(); ++b)
-    for (const Index node : rigid_->bodies()[b].nodes)
-      rigid_of_node_[node] = static_cast<int>(b);
 }
 
 void Model::build_contacts()
 {
-  auto surface = part_.surfaces.begin();
+  contacts_.reserve(options_.contact.size()); // the search keeps their addresses
+  auto surface = part_.surfaces.begin(), whole = part_.whole_surfaces.begin();
   for (const ContactOptions &contact : options_.contact)
   {
     const RigidBody *analytic = nullptr;
     for (const RigidBody &body : rigid_->bodies())
       if (body.shape && body.name == contact.target)
         analytic = &body;
-    Surface impactor = std::move(*surface++);
-    std::optional<Surface> target;
+    ContactSurfaces surfaces = share_of(std::move(*surface++));
     if (!analytic && !contact.is_self_contact())
-      target = std::move(*surface++);
-    contacts_.emplace_back(mesh(), options_.mesh.kinematics, options_.strain, contact, options_.detection,
-                           std::move(impactor), std::move(target), analytic);
+    {
+      surfaces.target = std::move(*surface++);
+      for (const GlobalIndex id : surfaces.target->node_ids)
+        surfaces.target_nodes.push_back(position(id));
+    }
+    if (contact.discretization == Discretization::mortar && !analytic && !contact.is_self_contact())
+      surfaces.whole_impactor = std::make_shared<const Surface>(std::move(*whole++));
+    if (surfaces.whole_impactor || (has_smoothed_target(contact, options_.strain) && !analytic))
+      surfaces.whole_target = std::make_shared<const Surface>(std::move(*whole++));
+    contacts_.emplace_back(points_, options_.mesh.kinematics, options_.strain, contact, options_.detection,
+                           std::move(surfaces), analytic);
   }
-  AMONTONS_ASSERT(surface == part_.surfaces.end());
+  AMONTONS_ASSERT(surface == part_.surfaces.end() && whole == part_.whole_surfaces.end());
   part_.surfaces.clear();
+  part_.whole_surfaces.clear();
   Index first = 0;
   for (ContactInterface &contact : contacts_)
   {
@@ -160,101 +201,87 @@ void Model::build_contacts()
   }
 }
 
-/// A node belongs to a process that has a deformable cell at it, where there is one.
-void Model::share_nodes()
+/// An impactor surface as this process has it.
+ContactSurfaces Model::share_of(const Surface &impactor) const
 {
-  std::vector<GlobalIndex> ids = mesh().node_ids;
-  for (Index k = 0; k < rigid_->n_extra_nodes(); ++k)
-    ids.push_back(node_id(mesh().n_nodes() + k));
-  std::vector<char> has_cell(ids.size(), 0);
-  for (const SubdomainMatrix &matrix : bodies_->subdomains())
-    for (const Index node : matrix.nodes)
-      has_cell[node] = 1;
-  nodes_ = Sharing(messages_, "model", ids, has_cell);
+  std::vector<char> is_own;
+  for (const GlobalIndex id : impactor.node_ids)
+    is_own.push_back(nodes_.is_own(position(id)) ? 1 : 0);
+  ContactSurfaces out;
+  out.impactor = own_first(impactor, is_own);
+  out.n_own = static_cast<Index>(std::count(is_own.begin(), is_own.end(), 1));
+  for (const GlobalIndex id : out.impactor.node_ids)
+    out.nodes.push_back(position(id));
+  return out;
 }
 
-Eigen::Vector3d Model::reference(Index node) const
+/// What of the contacts takes all processes: areas of nodes, the pairs that are there from the start, the search.
+void Model::build_search()
 {
-  if (node >= mesh().n_nodes())
-    return rigid_->bodies()[rigid_of_node_[node]].point;
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();
-  for (int c = 0; c < dim(); ++c)
-    x[c] = mesh().points[static_cast<std::size_t>(node) * dim() + c];
-  return x;
-}
-
-void Model::build_layout()
-{
-  std::vector<char> held(static_cast<std::size_t>(n_nodal()), 0);
-  for (const HeldComponent &component : supports_->held())
-    held[component.nodal] = 1;
-  // Nodes of no deformable cell and no rigid body have no stiffness: they stay where they are.
-  std::vector<double> stiff(rigid_of_node_.size(), 0);
-  for (const SubdomainMatrix &matrix : bodies_->subdomains())
-    for (const Index node : matrix.nodes)
-      stiff[node] = 1;
-  nodes_.maximum(stiff);
-
-  std::vector<Index> offsets{0};
-  std::vector<Term> terms;
-  Index n = rigid_->n_unknowns();
-  std::vector<GlobalIndex> ids(static_cast<std::size_t>(n));
-  std::iota(ids.begin(), ids.end(), 0);
-  std::vector<char> preferred(ids.size(), 0);
-  for (Index node = 0; node < static_cast<Index>(rigid_of_node_.size()); ++node)
-    for (int c = 0; c < dim(); ++c)
-    {
-      if (const int b = rigid_of_node_[node]; b >= 0)
-      {
-        const RigidBody &body = rigid_->bodies()[b];
-        if (body.translation[c].unknown >= 0)
-          terms.push_back({body.translation[c].unknown, 1});
-        for (int k = 0; k < n_spins(dim()); ++k)
-          if (const Index unknown = body.rotation[spin_axis(dim(), k)].unknown; unknown >= 0)
-            terms.push_back({unknown, 0});
-      }
-      else if (stiff[node] != 0 && !held[node * dim() + c])
-      {
-        terms.push_back({n++, 1});
-        ids.push_back(rigid_->n_unknowns() + node_id(node) * dim() + c);
-        preferred.push_back(nodes_.is_own(node) ? 1 : 0);
-      }
-      offsets.push_back(static_cast<Index>(terms.size()));
-    }
-  Index n_multipliers = 0;
-  for (const ContactInterface &contact : contacts_)
-    n_multipliers += contact.n_nodes() * dim();
-  layout_ = Layout(Sharing(messages_, "model", ids, preferred), n_multipliers, std::move(offsets), std::move(terms));
-  update_layout(initial_state());
-}
-
-void Model::update_layout(const State &state)
-{
-  for (std::size_t b = 0; b < rigid_->bodies().size(); ++b)
+  for (ContactInterface &contact : contacts_)
   {
-    const RigidBody &body = rigid_->bodies()[b];
-    for (int k = 0; k < n_spins(dim()); ++k)
-    {
-      const int axis = spin_axis(dim(), k);
-      if (body.rotation[axis].unknown < 0)
-        continue;
-      for (const Index node : body.nodes)
-      {
-        const Eigen::Vector3d velocity =
-            rigid_->spin_velocity(static_cast<int>(b), state.rigid[b], reference(node), axis);
-        for (int c = 0; c < dim(); ++c)
-          for (Term &term : layout_.terms(node * dim() + c))
-            if (term.unknown == body.rotation[axis].unknown)
-              term.coefficient = velocity[c];
-      }
-    }
+    std::vector<double> areas(node_ids_.size(), 0.0);
+    const std::vector<double> here =
+        tributary_areas(contact.impactor(), options_.mesh.kinematics == Kinematics::axisymmetric);
+    for (std::size_t i = 0; i < here.size(); ++i)
+      areas[contact.surfaces().nodes[i]] = here[i];
+    nodes_.sum(areas);
+    std::vector<double> own;
+    for (Index i = 0; i < contact.n_nodes(); ++i)
+      own.push_back(areas[contact.node(i)]);
+    contact.set_areas(std::move(own));
+    contact.share(messages_);
+    contact.place_faces([this](GlobalIndex id) { return position(id); });
   }
+  search_ = std::make_unique<ContactSearch>(contacts_, options_.detection, nodes_.messages());
+  auto n = static_cast<double>(std::accumulate(contacts_.begin(), contacts_.end(), Index(0),
+                                               [](Index sum, const auto &c) { return sum + c.n_nodes(); })) *
+           dim();
+  nodes_.sum_over_processes({&n, 1});
+  n_global_multipliers_ = static_cast<GlobalIndex>(n);
+}
+
+bool Model::detect(State &state, std::span<const double> reaches, bool keep)
+{
+  const std::vector<double> before = with_halo(state.displacement);
+  search_->search(before, reaches, small_strain());
+  bool changed = false;
+  const auto take = [&]
+  {
+    for (std::size_t c = 0; c < contacts_.size(); ++c)
+      if (contacts_[c].is_searched())
+        changed |= contacts_[c].take_pairs(search_->pairs(c), search_->target(c), before, keep);
+      else if (contacts_[c].is_mortar())
+      {
+        contacts_[c].couple(reaches[c]);
+        changed = true;
+      }
+  };
+  if (nodes_.is_distributed())
+    agree_on_errors(messages_->communicator(), take);
+  else
+    take();
+  changed = !nodes_.true_on_all(!changed);
+  if (changed)
+  {
+    update_halo();
+    const std::vector<double> after = with_halo(state.displacement);
+    for (ContactInterface &contact : contacts_)
+      contact.turn_multipliers(after, state.multipliers);
+  }
+  if (small_strain())
+  {
+    for (std::size_t c = 0; c < contacts_.size(); ++c)
+      detection_reports_.push_back(search_->report(c));
+    search_.reset();
+  }
+  return changed;
 }
 
 State Model::initial_state() const
 {
   State state;
-  state.displacement.assign(static_cast<std::size_t>(n_nodal()), 0);
+  state.displacement.assign(static_cast<std::size_t>(n_state_nodes()) * dim(), 0);
   state.rigid = rigid_->initial_state();
   state.multipliers.assign(static_cast<std::size_t>(layout_.n_multipliers()), 0);
   return state;
@@ -280,19 +307,29 @@ State Model::prescribe(State state, double time, double share) const
   return state;
 }
 
-State Model::advance(State state, std::span<const double> increment, double share) const
+Step Model::step_of(std::span<const double> increment) const
 {
-  std::vector<double> rigid(increment.begin(), increment.begin() + rigid_->n_unknowns());
+  Step out{{increment.begin(), increment.begin() + rigid_->n_unknowns()},
+           std::vector<double>(static_cast<std::size_t>(n_state_nodes()) * dim(), 0.0),
+           {increment.begin() + layout_.n_displacement_unknowns(), increment.end()}};
+  for (std::size_t nodal = 0; nodal < out.displacement.size(); ++nodal)
+    if (rigid_of_node_[nodal / dim()] < 0)
+      for (const Term &term : layout_.terms(static_cast<Index>(nodal)))
+        out.displacement[nodal] += increment[term.unknown];
+  return out;
+}
+
+State Model::advance(State state, const Step &step, double share) const
+{
+  std::vector<double> rigid = step.rigid;
   for (double &value : rigid)
     value *= share;
   state.rigid = rigid_->advance(std::move(state.rigid), rigid);
-  for (Index nodal = 0; nodal < layout_.n_nodal(); ++nodal)
-    if (rigid_of_node_[nodal / dim()] < 0)
-      for (const Term &term : layout_.terms(nodal))
-        state.displacement[nodal] += share * increment[term.unknown];
+  for (std::size_t i = 0; i < step.displacement.size(); ++i)
+    state.displacement[i] += share * step.displacement[i];
   place_rigid_nodes(state);
-  for (Index m = 0; m < layout_.n_multipliers(); ++m)
-    state.multipliers[m] += share * increment[layout_.multiplier(m)];
+  for (std::size_t m = 0; m < step.multipliers.size(); ++m)
+    state.multipliers[m] += share * step.multipliers[m];
   return state;
 }
 

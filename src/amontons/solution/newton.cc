@@ -68,9 +68,10 @@ void Newton::begin_increment(const State &state, double reach)
 {
   reach_ = reach;
   bool restored = false;
+  const std::vector<double> displacement = model_.with_halo(state.displacement);
   for (ContactInterface &contact : model_.contacts())
-    restored |= contact.begin_increment(state.displacement);
-  if (restored)
+    restored |= contact.begin_increment(displacement);
+  if (!model_.nodes().true_on_all(!restored))
     contacts_.rebuild_pattern();
 }
 
@@ -79,18 +80,12 @@ bool Newton::detect(State &state)
   if (model_.small_strain())
     return false;
   const auto scope = timers_.measure("detection");
-  bool changed = false;
-  for (ContactInterface &contact : model_.contacts())
-  {
-    ++counters_.n_detections;
-    if (!contact.detect(state.displacement, reach_, true))
-      continue;
-    changed = true;
-    contact.turn_multipliers(state.displacement, state.multipliers);
-  }
-  if (changed)
-    contacts_.rebuild_pattern();
-  return changed;
+  counters_.n_detections += static_cast<std::int64_t>(model_.contacts().size());
+  const std::vector<double> reaches(model_.contacts().size(), reach_);
+  if (!model_.detect(state, reaches, true))
+    return false;
+  contacts_.rebuild_pattern();
+  return true;
 }
 
 /// Of the right side's forces. As far as the residual that the change of statuses and the bodies' nonlinearity will
@@ -141,13 +136,13 @@ bool Newton::runs_away(const Evaluation &from, const Evaluation &next) const
 }
 
 Newton::Iterate Newton::step_from(const Iterate &from, const State &start, double time,
-                                  std::span<const double> increment, bool damp, double &share)
+                                  const Step &step, bool damp, double &share)
 {
   Iterate next;
   share = damp ? 0.5 : 1;
   for (int k = 0; k <= max_halvings; ++k, share *= 0.5)
   {
-    next.state = model_.prescribe(model_.advance(from.state, increment, share), time, share);
+    next.state = model_.prescribe(model_.advance(from.state, step, share), time, share);
     detect(next.state);
     next.at = evaluate(next.state, start, time, {}, false);
     if (next.at.valid && (k >= max_damping || !runs_away(from.at, next.at)))
@@ -158,8 +153,9 @@ Newton::Iterate Newton::step_from(const Iterate &from, const State &start, doubl
 
 void Newton::set_trial(const State &trial, const State &start)
 {
+  const std::vector<double> now = model_.with_halo(trial.displacement), then = model_.with_halo(start.displacement);
   for (ContactInterface &contact : model_.contacts())
-    contact.set_trial(trial.displacement, start.displacement);
+    contact.set_trial(now, then);
 }
 
 void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome)
@@ -178,14 +174,14 @@ void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcom
     contacts_.remember_slip();
     restrain(now.at, now.state, start, time, iteration == 1 && !now.has_trial);
     const auto n_before = form_->counters().n_iterations;
-    const std::vector<double> increment = solve_linear(
-        now.at, linear_tolerance(now.at, last_norm, forcing, settled, !now.has_trial && model_.has_friction()));
+    const Step step = model_.step_of(solve_linear(
+        now.at, linear_tolerance(now.at, last_norm, forcing, settled, !now.has_trial && model_.has_friction())));
     outcome.n_iterations = iteration;
     outcome.n_linear_iterations += static_cast<int>(form_->counters().n_iterations - n_before);
     ++counters_.n_newton_iterations;
 
     double share = 1;
-    Iterate next = step_from(now, start, time, increment, n_damped > 0, share);
+    Iterate next = step_from(now, start, time, step, n_damped > 0, share);
     if (!now.has_trial)
       set_trial(next.state, start);
     next.has_trial = true;
@@ -213,11 +209,11 @@ void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcom
 
 bool Newton::nothing_closed() const
 {
+  bool closed = false;
   for (const ContactInterface &contact : std::as_const(model_).contacts())
     for (Index i = 0; i < contact.n_nodes(); ++i)
-      if (contact.committed_status(i) != ContactStatus::open)
-        return false;
-  return true;
+      closed |= contact.committed_status(i) != ContactStatus::open;
+  return model_.nodes().true_on_all(!closed);
 }
 
 Newton::Iterate Newton::begin(const State &start, double time, const State *guess)
@@ -233,7 +229,7 @@ Newton::Iterate Newton::begin(const State &start, double time, const State *gues
   {
     const State approach = predictor_.approach(start, time);
     touching = predictor_.touching(start, approach);
-    out.has_trial = !touching.empty();
+    out.has_trial = !model_.nodes().true_on_all(touching.empty());
     if (out.has_trial)
       set_trial(approach, start);
   }

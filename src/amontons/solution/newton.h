@@ -68,12 +68,13 @@ private:
   void iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome);
   [[nodiscard]] bool runs_away(const Evaluation &from, const Evaluation &next) const;
   [[nodiscard]] Iterate step_from(const Iterate &from, const State &start, double time,
-                                  std::span<const double> increment, bool damp, double &share);
+                                  const Step &step, bool damp, double &share);
   [[nodiscard]] IterationReport compare(const Iterate &before, const Iterate &after);
   void restrain(Evaluation &at, const State &state, const State &start, double time, bool first);
   void update_rigid_blocks(const State &state, std::span<const double> contact_force);
   [[nodiscard]] std::string face_remark() const;
   [[nodiscard]] std::string remark(const Evaluation &now, std::span<const ContactStatus> before);
+  [[nodiscard]] bool is_first_of_most(int count, std::size_t contact, GlobalIndex node, int least) const;
 
   Model &model_;
   Counters &counters_;
@@ -89,6 +90,6 @@ private:
   bool tangent_assembled_ = false;
   std::vector<double> residual_;
   std::vector<double> diagonal_; ///< see diagonal_stiffness(), of the present tangent
-  std::vector<int> n_flips_;     ///< of each contact node's status within the increment
+  std::vector<int> n_flips_;     ///< of each own contact node's status within the increment
 };
 } // namespace amontons

@@ -1,3 +1,4 @@
+#include "amontons/parallel/agreement.h"
 #include "amontons/solution/newton_iterate.h"
 
 #include <array>
@@ -15,48 +16,66 @@ const char *name(ContactStatus status)
 }
 } // namespace
 
+/// Whether the node of this process is the one of all that has counted most, of equal ones that of the lowest contact and
+/// id, and at least so much. Collective. @param node -1: this process has none
+bool Newton::is_first_of_most(int count, std::size_t contact, GlobalIndex node, int least) const
+{
+  const Sharing &processes = model_.nodes();
+  const double most = processes.maximum_over_processes(node < 0 ? 0 : count);
+  if (most < least)
+    return false;
+  const double place = static_cast<double>(contact) * static_cast<double>(model_.mesh().n_global_nodes) +
+                       static_cast<double>(node);
+  const bool is_candidate = node >= 0 && count == most;
+  const double first = -processes.maximum_over_processes(is_candidate ? -place : -HUGE_VAL);
+  return is_candidate && place == first;
+}
+
+/// The node whose status has turned most often within the increment, if one that turned just now did often.
 std::string Newton::remark(const Evaluation &now, std::span<const ContactStatus> before)
 {
-  std::size_t worst = now.status.size();
-  for (std::size_t k = 0; k < now.status.size(); ++k)
-    if (now.status[k] != before[k])
-    {
-      ++n_flips_[k];
-      if (n_flips_[k] >= named_flips && (worst == now.status.size() || n_flips_[k] > n_flips_[worst]))
+  int most = 0;
+  std::size_t worst = 0, worst_contact = 0, k = 0;
+  GlobalIndex id = -1;
+  for (std::size_t c = 0; c < model_.contacts().size(); ++c)
+    for (Index i = 0; i < model_.contacts()[c].n_nodes(); ++i, ++k)
+      if (now.status[k] != before[k] && ++n_flips_[k] > most)
+      {
+        most = n_flips_[k];
         worst = k;
-    }
-  if (worst == now.status.size())
-    return face_remark();
-  std::size_t first = 0;
-  for (const ContactInterface &contact : model_.contacts())
+        worst_contact = c;
+        id = model_.contacts()[c].impactor().node_ids[i];
+      }
+  const auto text = [&]
   {
-    if (worst < first + static_cast<std::size_t>(contact.n_nodes()))
-    {
-      const GlobalIndex node = contact.impactor().node_ids[worst - first];
-      return "node " + std::to_string(model_.mesh().node_tags[static_cast<std::size_t>(node)]) + " " +
-             name(before[worst]) + "<->" + name(now.status[worst]) + ", change " + std::to_string(n_flips_[worst]);
-    }
-    first += static_cast<std::size_t>(contact.n_nodes());
-  }
-  return "";
+    return "node " + std::to_string(model_.mesh().node_tags[model_.position(id)]) + " " + name(before[worst]) + "<->" +
+           name(now.status[worst]) + ", change " + std::to_string(most);
+  };
+  const std::string told =
+      told_by_one(model_.nodes(), is_first_of_most(most, worst_contact, id, named_flips), text);
+  return told.empty() ? face_remark() : told;
 }
 
 /// The node that has changed its face most often within the increment, if that is often.
 std::string Newton::face_remark() const
 {
-  int most = named_flips - 1;
-  GlobalIndex node = -1;
-  for (const ContactInterface &contact : model_.contacts())
-    for (Index i = 0; i < contact.n_nodes(); ++i)
-      if (contact.n_face_changes(i) > most)
+  int most = 0;
+  std::size_t worst_contact = 0;
+  GlobalIndex id = -1;
+  for (std::size_t c = 0; c < model_.contacts().size(); ++c)
+    for (Index i = 0; i < model_.contacts()[c].n_nodes(); ++i)
+      if (const ContactInterface &contact = model_.contacts()[c]; contact.n_face_changes(i) > most)
       {
         most = contact.n_face_changes(i);
-        node = contact.impactor().node_ids[i];
+        worst_contact = c;
+        id = contact.impactor().node_ids[i];
       }
-  if (node < 0)
-    return "";
-  return "node " + std::to_string(model_.mesh().node_tags[static_cast<std::size_t>(node)]) +
-         " goes to another face, change " + std::to_string(most);
+  const auto text = [&]
+  {
+    return "node " + std::to_string(model_.mesh().node_tags[model_.position(id)]) + " goes to another face, change " +
+           std::to_string(most);
+  };
+  return told_by_one(model_.nodes(), is_first_of_most(most, worst_contact, id, named_flips), text);
 }
 
 IterationReport Newton::compare(const Iterate &before, const Iterate &after)
@@ -69,12 +88,17 @@ IterationReport Newton::compare(const Iterate &before, const Iterate &after)
   std::array<double, 2> most{change, largest(after.state.displacement)};
   model_.nodes().maximum_over_processes(most);
   report.correction = most[1] > 0 ? most[0] / most[1] : 0;
+  std::array<double, 3> counts{};
   for (std::size_t k = 0; k < after.at.status.size(); ++k)
   {
-    report.n_status_changes += after.at.status[k] != before.at.status[k];
-    report.n_stick += after.at.status[k] == ContactStatus::stick;
-    report.n_slip += after.at.status[k] == ContactStatus::slip;
+    counts[0] += after.at.status[k] != before.at.status[k];
+    counts[1] += after.at.status[k] == ContactStatus::stick;
+    counts[2] += after.at.status[k] == ContactStatus::slip;
   }
+  model_.nodes().sum_over_processes(counts);
+  report.n_status_changes = static_cast<int>(counts[0]);
+  report.n_stick = static_cast<int>(counts[1]);
+  report.n_slip = static_cast<int>(counts[2]);
   report.n_active = report.n_stick + report.n_slip;
   report.remark = remark(after.at, before.at.status);
   return report;

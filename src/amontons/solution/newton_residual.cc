@@ -2,6 +2,8 @@
 #include "amontons/solution/newton_iterate.h"
 #include "amontons/solution/start.h"
 
+#include <array>
+
 namespace amontons
 {
 namespace
@@ -14,22 +16,26 @@ constexpr double round_off = 1e-13;
 double resisted_force(const Model &model, std::span<const double> stiffness, std::span<const double> displacement)
 {
   double sum = 0;
-  for (std::size_t i = 0; i < stiffness.size(); ++i)
+  for (std::size_t i = 0; i < displacement.size(); ++i)
     if (model.nodes().is_own(static_cast<Index>(i) / model.dim()))
       sum += std::pow(stiffness[i] * displacement[i], 2);
   model.nodes().sum_over_processes({&sum, 1});
   return std::sqrt(sum);
 }
 
-/// Identifies a set of statuses and faces.
-std::uint64_t signature(std::span<const ContactStatus> statuses, std::span<const ContactInterface> contacts)
+/// Identifies a set of statuses and faces, of all processes.
+std::uint64_t signature(std::span<const ContactStatus> statuses, const Model &model)
 {
   Hash hash;
   hash.add(statuses);
-  for (const ContactInterface &contact : contacts)
+  for (const ContactInterface &contact : model.contacts())
     for (const Pair &pair : contact.pairing())
       hash.add(pair.face);
-  return hash.value();
+  // Sums of halves are whole numbers that a double holds.
+  const std::uint64_t own = hash.value();
+  std::array<double, 2> halves{static_cast<double>(own >> 32), static_cast<double>(own & 0xFFFFFFFF)};
+  model.nodes().sum_over_processes(halves);
+  return (static_cast<std::uint64_t>(halves[0]) << 32) + static_cast<std::uint64_t>(halves[1]);
 }
 } // namespace
 
@@ -54,7 +60,7 @@ void Newton::prepare_matrix(const State &state, double time)
 void Newton::compute_residual(Evaluation &out, const State &state, double time,
                               const ContactContribution &contact) const
 {
-  std::vector<double> internal(out.pending.size(), 0.0), external(out.pending.size(), 0.0);
+  std::vector<double> internal(contact.force.size(), 0.0), external(internal);
   const Sharing &nodes = model_.nodes();
   const int dim = model_.dim();
   out.valid = nodes.true_on_all(model_.bodies().forces(model_.mesh_part(state.displacement), time,
@@ -84,7 +90,7 @@ void Newton::compute_residual(Evaluation &out, const State &state, double time,
 
   if (out.pending_motion > 0)
   {
-    std::vector<double> resisted(out.pending.size(), 0.0);
+    std::vector<double> resisted(internal.size(), 0.0);
     for (const SubdomainMatrix &matrix : model_.bodies().subdomains())
       multiply_add(matrix, out.pending, resisted);
     nodes.sum(resisted, dim);
@@ -125,7 +131,7 @@ Newton::Evaluation Newton::evaluate(const State &state, const State &start, doub
       state, start.displacement,
       out.pending_motion > 0 ? std::span<const double>(out.pending) : std::span<const double>{}, forced, first);
   out.status = contact.status;
-  out.signature = signature(out.status, model_.contacts());
+  out.signature = signature(out.status, model_);
   update_rigid_blocks(state, contact.force);
   compute_residual(out, state, time, contact);
   return out;
@@ -162,9 +168,10 @@ void Newton::restrain(Evaluation &at, const State &state, const State &start, do
   if (!free_motions_.any())
     return;
   const FreeMotions::Decision decision =
-      free_motions_.decide(state, contacts_.holding(), contacts_.candidates(), at.residual, time, at.scale);
+      free_motions_.decide(model_.with_halo(state.displacement), contacts_.holding(), contacts_.candidates(),
+                           at.residual, time, at.scale);
   const bool bordered = form_->set_held_modes(decision.held_modes);
-  if (!decision.closed.empty() || bordered)
+  if (decision.closes || bordered)
     at = evaluate(state, start, time, decision.closed, first);
 }
 } // namespace amontons

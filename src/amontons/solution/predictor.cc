@@ -64,7 +64,7 @@ Predictor::Loads Predictor::loads(const State &state, double time)
 {
   Loads out;
   out.displacement = model_.prescribe(model_.initial_state(), time, 1).displacement;
-  std::vector<double> internal(out.displacement.size(), 0.0);
+  std::vector<double> internal(static_cast<std::size_t>(model_.n_nodal()), 0.0);
   out.force.assign(internal.size(), 0.0);
   (void)model_.bodies().forces(model_.mesh_part(state.displacement), time, model_.mesh_part(internal),
                                model_.mesh_part(out.force));
@@ -136,7 +136,7 @@ State Predictor::approach(const State &now, double to) const
     }
   model_.nodes().sum_over_processes(sum);
   model_.nodes().sum_over_processes(count);
-  for (std::size_t node = 0; node < body.size(); ++node)
+  for (std::size_t node = 0; node * dim < out.displacement.size(); ++node)
     if (body[node] >= 0 && model_.rigid_of_node()[node] < 0)
       for (std::size_t i = node * dim, k = static_cast<std::size_t>(body[node]) * dim; i < (node + 1) * dim; ++i, ++k)
         out.displacement[i] = now.displacement[i] + sum[k] / std::max(count[k], 1.0);
@@ -147,13 +147,14 @@ std::vector<std::pair<int, Index>> Predictor::touching(const State &now, const S
 {
   std::vector<std::pair<int, Index>> out;
   std::vector<ContactInterface> &contacts = model_.contacts();
+  const std::vector<double> before = model_.with_halo(now.displacement), after = model_.with_halo(approach.displacement);
   for (std::size_t c = 0; c < contacts.size(); ++c)
     for (Index i = 0; i < contacts[c].n_nodes(); ++i)
     {
       if (!contacts[c].paired(i) || contacts[c].options().tied)
         continue;
-      const double start = contacts[c].gap(i, now.displacement);
-      if (start > 0 && contacts[c].gap(i, approach.displacement) < 0)
+      const double start = contacts[c].gap(i, before);
+      if (start > 0 && contacts[c].gap(i, after) < 0)
         out.emplace_back(static_cast<int>(c), i);
     }
   return out;

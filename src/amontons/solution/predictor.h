@@ -32,13 +32,14 @@ public:
 
   /// The state at a time if every body moves as its supports do in the mean.
   [[nodiscard]] State approach(const State &now, double to) const;
-  /// Nodes (contact, node) that are open and close on the way to `approach`.
+  /// Own nodes (contact, node) that are open and close on the way to `approach`. Collective.
   [[nodiscard]] std::vector<std::pair<int, Index>> touching(const State &now, const State &approach);
 
 private:
   struct Loads
   {
-    std::vector<double> displacement, force; ///< nodal
+    std::vector<double> displacement;        ///< as in a state
+    std::vector<double> force;               ///< nodal
     std::vector<double> on_rigid;            ///< forces on the rigid bodies' unknowns
   };
   [[nodiscard]] Loads loads(const State &state, double time);

@@ -12,11 +12,15 @@
 namespace amontons
 {
 /// Everything that is known of one contact at the end of an increment; the only source of every number of force,
-/// pressure, gap, slip and area. Arrays run over the nodes of the impactor surface.
+/// pressure, gap, slip and area. Arrays run over the nodes of the impactor surface, as far as the process has it: first
+/// those that it owns, then the others of its faces, with what their owners know. Sums and extremes are the whole's.
 struct ContactResult
 {
   std::string name;
-  const Surface *impactor = nullptr; ///< node_ids are node indices of the mesh
+  const Surface *impactor = nullptr; ///< node_ids are positions in the whole mesh
+  std::vector<Index> nodes;          ///< [n] positions in the process's mesh
+  Index n_own = 0;
+  GlobalIndex n_nodes = 0; ///< of the whole impactor
   int dim = 2;
   std::vector<double> gap;      ///< [n], length; infinity for a node without a pair; mortar: the mean at the node
   std::vector<double> pressure; ///< [n], compression positive; -lambda_n / area

@@ -52,15 +52,13 @@ public:
     state_ = model_->initial_state();
     if (!model_->nodes().true_on_all(model_->bodies().assemble_tangent(model_->mesh_part(state_.displacement), 0)))
       throw InternalError("a cell is inside out at the start");
-    const std::vector<double> diagonal = diagonal_stiffness(*model_);
-    for (ContactInterface &contact : model_->contacts())
-      contact.set_augmentation(diagonal);
+    set_augmentation(*model_, diagonal_stiffness(*model_));
     detect_first(*model_, state_);
     counters_.n_detections += static_cast<std::int64_t>(model_->contacts().size());
     step_ = std::min(model_->options().loading.end / model_->options().loading.increments, most_step());
     solvers_ = linear_solvers(model_->options(), model_->mesh());
     if (from)
-      restore(part_of(*from, model_->problem_key(), model_->mesh(), model_->nodes()));
+      restore(own_part(*from));
     else
       take_next_solver();
   }
@@ -138,6 +136,15 @@ private:
     return loading.min_increment.value_or(default_min_increment * loading.end / loading.increments);
   }
 
+  [[nodiscard]] Checkpoint own_part(const Checkpoint &whole) const
+  {
+    std::vector<std::vector<GlobalIndex>> contact_nodes;
+    for (const ContactInterface &contact : model_->contacts())
+      contact_nodes.push_back(contact.history().nodes);
+    return part_of(whole, model_->problem_key(), model_->mesh(), model_->nodes(), model_->n_state_nodes(),
+                   contact_nodes);
+  }
+
   /// @param from this process's part
   void restore(const Checkpoint &from)
   {
@@ -157,6 +164,7 @@ private:
     counters_ = from.counters;
     for (std::size_t c = 0; c < from.contacts.size(); ++c)
       model_->contacts()[c].set_history(from.contacts[c]);
+    model_->update_halo();
     model_->bodies().set_histories(from.cells);
     model_->update_layout(state_);
     if (const auto solver = std::find(solvers_.begin(), solvers_.end(), from.linear_solver); solver != solvers_.end())
@@ -225,7 +233,7 @@ private:
     double reach = 2 * std::max(model_->prescribed_motion(from, to), last_motion_);
     if (from == 0 || last_motion_ == 0)
       for (const ContactInterface &contact : model_->contacts())
-        reach = std::max(reach, 2 * separation_and_extent(contact).first);
+        reach = std::max(reach, 2 * separation_and_extent(*model_, contact).first);
     return reach;
   }
 
@@ -241,8 +249,10 @@ private:
     out.stress = model_->bodies().stress(u);
     out.plastic_strain = model_->bodies().plastic_strain();
     const State &start = increment_ > 0 ? start_ : state_;
+    const std::vector<double> now = model_->with_halo(state_.displacement),
+                              then = model_->with_halo(start.displacement);
     for (ContactInterface &contact : model_->contacts())
-      out.contacts.push_back(contact.result(state_.displacement, start.displacement, state_.multipliers));
+      complete(out.contacts.emplace_back(contact.result(now, then, state_.multipliers)), contact.surfaces().sharing);
     out.reactions = std::move(reactions);
     return out;
   }
@@ -297,15 +307,18 @@ ProblemCheck check_problem(const ProblemOptions &options)
 {
   Model model(options);
   FreeMotions(model).check_restrained();
-  const State state = model.initial_state();
+  State state = model.initial_state();
   detect_first(model, state);
   ProblemCheck out;
   out.n_nodes = model.mesh().n_nodes();
   out.n_cells = model.mesh().cells.size();
   out.n_dofs = model.n_global_unknowns();
-  for (const ContactInterface &contact : model.contacts())
+  for (std::size_t c = 0; c < model.contacts().size(); ++c)
+  {
+    const ContactInterface &contact = model.contacts()[c];
     out.contacts.push_back({contact.options().name, contact.n_nodes(),
-                            contact.target() ? contact.target()->n_faces() : 0, contact.detection_report()});
+                            contact.target() ? contact.target()->n_faces() : 0, model.detection_report(c)});
+  }
   out.warnings = initial_warnings(model);
   return out;
 }

@@ -1,6 +1,10 @@
 #include "amontons/solution/start.h"
 
+#include "amontons/algebra/linear_solver_failure.h"
+#include "amontons/parallel/agreement.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -33,13 +37,30 @@ Box box_of(const Surface &surface)
 }
 } // namespace
 
-std::pair<double, double> separation_and_extent(const ContactInterface &contact)
+std::pair<double, double> separation_and_extent(const Model &model, const ContactInterface &contact)
 {
-  const Box a = box_of(contact.impactor());
+  const auto box_of_all = [&](const Surface &surface)
+  {
+    Box box = box_of(surface);
+    std::array<double, 6> extremes{};
+    for (int c = 0; c < 3; ++c)
+    {
+      extremes[c] = box.high[c];
+      extremes[3 + c] = -box.low[c];
+    }
+    model.nodes().maximum_over_processes(extremes);
+    for (int c = 0; c < 3; ++c)
+    {
+      box.high[c] = extremes[c];
+      box.low[c] = -extremes[3 + c];
+    }
+    return box;
+  };
+  const Box a = box_of_all(contact.impactor());
   const double extent = (a.high - a.low).norm();
   if (!contact.target())
     return {0, extent};
-  const Box b = box_of(*contact.target());
+  const Box b = box_of_all(*contact.target());
   const Eigen::Vector3d apart = (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0);
   return {apart.norm(), std::max(extent, (b.high - b.low).norm())};
 }
@@ -58,38 +79,95 @@ std::vector<double> diagonal_stiffness(const Model &model)
   return diagonal;
 }
 
-void detect_first(Model &model, const State &state)
+void set_augmentation(Model &model, std::span<const double> diagonal)
 {
   for (ContactInterface &contact : model.contacts())
   {
-    const auto [separation, extent] = separation_and_extent(contact);
-    const double motion = model.prescribed_motion(0, model.options().loading.end);
-    contact.detect(state.displacement, separation + std::max(motion, small_strain_reach * extent), false);
-    contact.set_initial_gap(state.displacement);
+    std::array<double, 2> on_target{0, 0}; // the sum, and how many
+    if (contact.target())
+    {
+      std::vector<Index> own;
+      for (const Index node : contact.target_nodes())
+        if (model.nodes().is_own(node))
+          own.push_back(node);
+      const MeanStiffness mean(diagonal, own, model.dim());
+      on_target = {mean.sum, static_cast<double>(mean.n)};
+    }
+    model.nodes().sum_over_processes(on_target);
+    const double mean = on_target[1] > 0 ? on_target[0] / on_target[1] : 0;
+    agree_on_failures(model.nodes(), [&] { contact.set_augmentation(diagonal, mean); });
   }
 }
+
+void detect_first(Model &model, State &state)
+{
+  std::vector<double> reaches;
+  const double motion = model.prescribed_motion(0, model.options().loading.end);
+  for (const ContactInterface &contact : model.contacts())
+  {
+    const auto [separation, extent] = separation_and_extent(model, contact);
+    reaches.push_back(separation + std::max(motion, small_strain_reach * extent));
+  }
+  (void)model.detect(state, reaches, false);
+  const std::vector<double> displacement = model.with_halo(state.displacement);
+  for (ContactInterface &contact : model.contacts())
+    contact.set_initial_gap(displacement);
+}
+
+namespace
+{
+/// What the processes' reports come to together, as far as initial_warnings() asks.
+struct FirstPairs
+{
+  double n_pairs, n_penetrations;
+  double deepest = 0;
+  bool is_here = false; ///< the deepest node: of equally deep ones that of the lowest process
+};
+
+FirstPairs together(const DetectionReport &report, const Sharing &processes)
+{
+  std::array<double, 2> sums{static_cast<double>(report.n_pairs), static_cast<double>(report.n_penetrations)};
+  processes.sum_over_processes(sums);
+  FirstPairs out{sums[0], sums[1]};
+  out.deepest = -processes.maximum_over_processes(report.deepest_node < 0 ? 0 : -report.deepest);
+  const bool is_candidate = report.deepest_node >= 0 && report.deepest == out.deepest;
+  const double rank = -processes.maximum_over_processes(is_candidate ? -processes.rank() : -processes.n_processes());
+  out.is_here = is_candidate && rank == processes.rank();
+  return out;
+}
+
+std::string overlap_warning(const Model &model, std::size_t c, const FirstPairs &found)
+{
+  const ContactInterface &contact = model.contacts()[c];
+  const Index node = model.detection_report(c).deepest_node;
+  const double size = std::pow(contact.areas()[node], 1.0 / (model.dim() - 1));
+  if (found.deepest >= -overlap_to_tell * size)
+    return "";
+  return "contact '" + contact.options().name + "': " +
+         std::to_string(static_cast<std::int64_t>(found.n_penetrations)) +
+         " nodes lie inside the target at the start, deepest " + std::to_string(found.deepest) + " at node " +
+         std::to_string(model.mesh().node_tags[contact.node(node)]) +
+         (contact.options().initial_overlap == InitialOverlap::adjust ? "; taken as touching"
+                                                                      : "; resolved as interference");
+}
+} // namespace
 
 std::vector<std::string> initial_warnings(const Model &model)
 {
   std::vector<std::string> out;
-  for (const ContactInterface &contact : model.contacts())
+  const Sharing &processes = model.nodes();
+  for (std::size_t c = 0; c < model.contacts().size(); ++c)
   {
-    const DetectionReport report = contact.detection_report();
+    const ContactInterface &contact = model.contacts()[c];
+    const FirstPairs found = together(model.detection_report(c), processes);
     const bool may_meet_later = contact.options().is_self_contact() && !model.small_strain();
-    if (report.n_pairs == 0 && !may_meet_later)
+    if (found.n_pairs == 0 && !may_meet_later)
       out.push_back("contact '" + contact.options().name + "': no node of the impactor finds the target");
-    if (!contact.target() || report.deepest_node < 0 || contact.options().tied)
+    if (!contact.target() || contact.options().tied || found.deepest == 0)
       continue;
-    const double size = std::pow(contact.areas()[report.deepest_node], 1.0 / (model.dim() - 1));
-    if (report.deepest < -overlap_to_tell * size)
-    {
-      const auto node = static_cast<std::size_t>(contact.impactor().node_ids[report.deepest_node]);
-      out.push_back("contact '" + contact.options().name + "': " + std::to_string(report.n_penetrations) +
-                    " nodes lie inside the target at the start, deepest " + std::to_string(report.deepest) +
-                    " at node " + std::to_string(model.mesh().node_tags[node]) +
-                    (contact.options().initial_overlap == InitialOverlap::adjust ? "; taken as touching"
-                                                                                 : "; resolved as interference"));
-    }
+    const std::string warning = told_by_one(processes, found.is_here, [&] { return overlap_warning(model, c, found); });
+    if (!warning.empty())
+      out.push_back(warning);
   }
   return out;
 }
