@@ -72,10 +72,10 @@ ExitCode run_deck(const DeckArguments &arguments, const Communicator &world)
   Pictures pictures(folder, deck.output, deck.bodies);
   CheckpointWriter checkpoints(folder, deck.output.checkpoint, record, pictures);
   // The record after the files that it tells of.
-  std::vector<Observer *> observers{&pictures, &record, &checkpoints};
+  std::vector<Observer *> observers{&tables, &pictures, &record, &checkpoints};
   if (world.is_root())
   {
-    observers.insert(observers.begin(), {&screen, &tables});
+    observers.insert(observers.begin(), &screen);
     if (saved)
     {
       record.resume(std::move(saved->record), saved->checkpoint.increment);

@@ -52,6 +52,9 @@ inline Example::Example()
   ContactResult contact;
   contact.name = "block/floor";
   contact.impactor = &surface;
+  contact.nodes = {2, 1, 0};
+  contact.n_own = 3;
+  contact.n_nodes = 3;
   contact.gap = {0.125, -1e-17, std::numeric_limits<double>::infinity()};
   contact.pressure = {0, 1.0 / 3, 2};
   contact.traction = {0, 0.1, -0.2};

@@ -80,6 +80,8 @@ TEST(ContactTable, HasTheColumnsOfSpace)
   example.state.displacement = {0, 0, 0, 4, 5, 6};
   ContactResult contact;
   contact.impactor = &example.surface;
+  contact.nodes = {1};
+  contact.n_own = 1;
   contact.dim = 3;
   contact.gap = {7};
   contact.pressure = {8};

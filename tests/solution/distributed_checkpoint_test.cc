@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace amontons
 {
@@ -26,8 +27,32 @@ void add_history(CellHistories &histories, Index cell, GlobalIndex id)
   histories.offset.push_back(histories.values.size());
 }
 
+using ContactNodes = std::vector<std::vector<GlobalIndex>>;
+
+/// By contact; one node is in both.
+const ContactNodes all_contact_nodes{{0, 1, 2, 3, 5, 8, 13}, {3, 4, 11}};
+
+void add_contact(Checkpoint &out, std::size_t c, const std::vector<GlobalIndex> &nodes)
+{
+  ContactHistory &history = out.contacts.emplace_back();
+  for (const GlobalIndex id : nodes)
+  {
+    const double value = static_cast<double>(100 * c + id);
+    Pair pair;
+    pair.face = static_cast<Index>(7 * c + id);
+    pair.gap = 0.125 * value;
+    history.nodes.push_back(id);
+    history.pairing.push_back(pair);
+    history.face_nodes.insert(history.face_nodes.end(), {id + 1, id + 2, -1, -1});
+    history.status.push_back(static_cast<ContactStatus>(id % 3));
+    history.total_slip.push_back(value);
+    for (State *state : {&out.state, &out.last->start})
+      state->multipliers.insert(state->multipliers.end(), {value, state == &out.state ? 1.0 : 2.0});
+  }
+}
+
 /// A checkpoint at some nodes. @param ids of the nodes in the whole
-Checkpoint checkpoint_at(const std::vector<GlobalIndex> &ids)
+Checkpoint checkpoint_at(const std::vector<GlobalIndex> &ids, const ContactNodes &contact_nodes)
 {
   Checkpoint out;
   out.problem_key = key;
@@ -47,12 +72,9 @@ Checkpoint checkpoint_at(const std::vector<GlobalIndex> &ids)
     RigidState &body = state->rigid.emplace_back();
     body.translation = {sign, 2, 3};
     body.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-    state->multipliers = {sign, 5, 6};
   }
-  Pair pair;
-  pair.face = 7;
-  pair.gap = 0.125;
-  out.contacts = {{{pair, Pair()}, {ContactStatus::stick, ContactStatus::open}, {0.5, 0}}};
+  for (std::size_t c = 0; c < contact_nodes.size(); ++c)
+    add_contact(out, c, contact_nodes[c]);
   out.cells.offset = {0};
   out.counters.n_detections = 11;
   return out;
@@ -63,7 +85,7 @@ Checkpoint whole_checkpoint()
   std::vector<GlobalIndex> ids;
   for (GlobalIndex id = 0; id <= n_nodes; ++id)
     ids.push_back(id);
-  Checkpoint out = checkpoint_at(ids);
+  Checkpoint out = checkpoint_at(ids, all_contact_nodes);
   for (Index cell = 0; cell < n_cells; ++cell)
     add_history(out.cells, cell, cell);
   return out;
@@ -92,6 +114,8 @@ void expect_same(const Checkpoint &a, const Checkpoint &b)
   ASSERT_EQ(a.contacts.size(), b.contacts.size());
   for (std::size_t c = 0; c < a.contacts.size(); ++c)
   {
+    EXPECT_EQ(a.contacts[c].nodes, b.contacts[c].nodes);
+    EXPECT_EQ(a.contacts[c].face_nodes, b.contacts[c].face_nodes);
     ASSERT_EQ(a.contacts[c].pairing.size(), b.contacts[c].pairing.size());
     for (std::size_t i = 0; i < a.contacts[c].pairing.size(); ++i)
     {
@@ -127,7 +151,12 @@ protected:
     mesh_.node_tags = mesh_.node_ids;
     std::vector<GlobalIndex> ids = mesh_.node_ids;
     ids.push_back(n_nodes);
-    local_ = checkpoint_at(ids);
+    for (const std::vector<GlobalIndex> &nodes : all_contact_nodes)
+    {
+      std::vector<GlobalIndex> &own = contact_nodes_.emplace_back();
+      std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(own), here);
+    }
+    local_ = checkpoint_at(ids, contact_nodes_);
     for (GlobalIndex id = 0; id < n_cells; ++id)
       if (here(id))
       {
@@ -144,10 +173,15 @@ protected:
       return local_;
     return all_.is_root() ? whole_checkpoint() : Checkpoint();
   }
+  [[nodiscard]] Checkpoint own_part(const Checkpoint &from, std::uint64_t of = key) const
+  {
+    return part_of(from, of, mesh_, nodes_, nodes_.size(), contact_nodes_);
+  }
 
   Communicator all_{MPI_COMM_WORLD};
   Mesh mesh_;
   Sharing nodes_;
+  ContactNodes contact_nodes_;
   Checkpoint local_;
 };
 
@@ -160,19 +194,19 @@ TEST_F(CheckpointParts, MakeTheWhole)
 
 TEST_F(CheckpointParts, ComeFromTheWhole)
 {
-  expect_same(part_of(whole(), key, mesh_, nodes_), local_);
+  expect_same(own_part(whole()), local_);
 }
 
 TEST_F(CheckpointParts, OfAnotherProblemAreRefusedByAll)
 {
-  EXPECT_THROW(part_of(whole(), key + 1, mesh_, nodes_), UserError);
+  EXPECT_THROW(own_part(whole(), key + 1), UserError);
 }
 
 TEST_F(CheckpointParts, WorkIsCountedOnceByWhomeverTakesItOver)
 {
   Checkpoint from = whole();
   from.counters.n_factorizations = 12;
-  auto n = static_cast<double>(part_of(from, key, mesh_, nodes_).counters.n_factorizations);
+  auto n = static_cast<double>(own_part(from).counters.n_factorizations);
   nodes_.sum_over_processes({&n, 1});
   EXPECT_EQ(n, 12);
 }

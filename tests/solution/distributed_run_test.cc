@@ -47,12 +47,7 @@ protected:
     ASSERT_EQ(spread.states.size(), alone.states.size());
     for (std::size_t s = 0; s < alone.states.size(); ++s)
       for (std::size_t c = 0; c < alone.states[s].contacts.size(); ++c)
-      {
-        const ContactResult &one = alone.states[s].contacts[c], &all = spread.states[s].contacts[c];
-        EXPECT_EQ(all.status, one.status);
-        expect_near(all.force, one.force);
-        expect_near(all.slip, one.slip);
-      }
+        expect_same_contact(spread, alone, s, c);
     for (std::size_t r = 0; r < alone.state().reactions.size(); ++r)
     {
       const Reaction &one = alone.state().reactions[r], &all = spread.state().reactions[r];
@@ -60,6 +55,32 @@ protected:
       expect_near(all.force, one.force);
     }
     expect_same_displacements(alone, spread);
+  }
+
+  /// At all nodes that the process has.
+  static void expect_same_contact(const Record &spread, const Record &alone, std::size_t s, std::size_t c)
+  {
+    const ContactResult &all = spread.states[s].contacts[c], &one = alone.states[s].contacts[c];
+    const std::vector<GlobalIndex> &nodes = spread.impactor_nodes[c], &of_all = alone.impactor_nodes[c];
+    EXPECT_EQ(all.n_nodes, one.n_nodes);
+    EXPECT_EQ(all.n_stick, one.n_stick);
+    EXPECT_EQ(all.n_slip, one.n_slip);
+    expect_near(all.normal_force, one.normal_force);
+    expect_near(all.tangential_force, one.tangential_force);
+    std::vector<ContactStatus> status;
+    std::vector<double> force, slip;
+    for (const GlobalIndex node : nodes)
+    {
+      const auto i = std::find(of_all.begin(), of_all.end(), node) - of_all.begin();
+      const auto take = [i](std::vector<double> &to, const std::vector<double> &from, std::ptrdiff_t width)
+      { to.insert(to.end(), from.begin() + i * width, from.begin() + (i + 1) * width); };
+      status.push_back(one.status.at(i));
+      take(force, one.force, one.dim);
+      take(slip, one.slip, one.dim - 1);
+    }
+    EXPECT_EQ(all.status, status);
+    expect_near(all.force, force);
+    expect_near(all.slip, slip);
   }
 
   static void expect_near(std::span<const double> all, std::span<const double> one)

@@ -154,7 +154,7 @@ VtuGrid contact_grid(const ContactResult &contact, const SolutionState &state)
   std::vector<double> displacement;
   for (std::size_t i = 0; i < surface.node_ids.size(); ++i)
   {
-    const auto node = static_cast<std::size_t>(surface.node_ids[i]);
+    const auto node = static_cast<std::size_t>(contact.nodes[i]);
     tags.push_back(state.mesh->node_tags[node]);
     statuses.push_back(static_cast<std::int64_t>(contact.status[i]));
     const auto of_node = std::span(state.displacement).subspan(node * dim, dim);
@@ -214,24 +214,18 @@ void Pictures::finish(const SolutionState &last, const Counters & /*counters*/, 
 void Pictures::write(const SolutionState &state)
 {
   last_written_ = state.increment;
-  const std::string bodies = write_bodies(state);
-  if (!folder_.communicator().is_root())
-    return;
-  add("solution", state, bodies);
+  add("solution", state,
+      write_grid(picture_name("solution", state.increment), body_grid(state, bodies_, options_.fields)));
   for (const ContactResult &contact : state.contacts)
   {
     const std::string stem = contact_file_stem(contact.name);
-    const std::string file = picture_name(stem, state.increment) + ".vtu";
-    folder_.write(file, contact_grid(contact, state).text());
-    add(stem, state, file);
+    add(stem, state, write_grid(picture_name(stem, state.increment), contact_grid(contact, state)));
   }
 }
 
-std::string Pictures::write_bodies(const SolutionState &state)
+std::string Pictures::write_grid(const std::string &name, const VtuGrid &grid) const
 {
   const Communicator &all = folder_.communicator();
-  const VtuGrid grid = body_grid(state, bodies_, options_.fields);
-  const std::string name = picture_name("solution", state.increment);
   if (all.size() == 1)
   {
     folder_.write(name + ".vtu", grid.text());
@@ -248,6 +242,8 @@ std::string Pictures::write_bodies(const SolutionState &state)
 
 void Pictures::add(const std::string &stem, const SolutionState &state, const std::string &file)
 {
+  if (!folder_.communicator().is_root())
+    return;
   series_[stem].emplace_back(state.time, file);
   folder_.write(stem + ".pvd", pvd_text(series_[stem]));
 }

@@ -21,7 +21,7 @@ VtuGrid body_grid(const SolutionState &state, const std::vector<BodyOptions> &bo
 VtuGrid contact_grid(const ContactResult &contact, const SolutionState &state);
 
 /// Writes solution.pvd, contact_<name>.pvd and their .vtu files: the initial state, every n-th increment, the last.
-/// Over several processes each writes the .vtu of its own cells, process 0 the .pvtu that holds them together.
+/// Over several processes each writes the .vtu of its own cells and faces, process 0 the .pvtu that holds them together.
 class Pictures : public Observer
 {
 public:
@@ -42,8 +42,8 @@ public:
 
 private:
   void write(const SolutionState &state);
-  /// @return the name of the file
-  std::string write_bodies(const SolutionState &state);
+  /// One file, or over several processes a piece of each and what holds them together. @return the name of the file
+  std::string write_grid(const std::string &name, const VtuGrid &grid) const;
   void add(const std::string &stem, const SolutionState &state, const std::string &file);
 
   const ResultFolder &folder_;

@@ -24,7 +24,7 @@ std::span<const double> vector(const std::array<double, 3> &components, int dim)
 Json contact_entry(const ContactResult &contact)
 {
   return {{"name", contact.name},
-          {"n_impactor_nodes", contact.status.size()},
+          {"n_impactor_nodes", contact.n_nodes},
           {"n_active", contact.n_active},
           {"n_stick", contact.n_stick},
           {"n_slip", contact.n_slip},

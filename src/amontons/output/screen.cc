@@ -28,7 +28,7 @@ std::string plural(std::int64_t n, const char *word)
 std::string contact_line(const ContactResult &contact)
 {
   std::string text = fmt::format("  {}: {} of {} nodes closed, {} stick, {} slip", contact.name, contact.n_active,
-                                 contact.status.size(), contact.n_stick, contact.n_slip);
+                                 contact.n_nodes, contact.n_stick, contact.n_slip);
   if (contact.n_active > 0)
     text += fmt::format("; normal force {}, tangential {}, greatest pressure {:.6g}, area {:.6g}",
                         text_of(contact.normal_force, contact.dim), text_of(contact.tangential_force, contact.dim),
