@@ -67,7 +67,7 @@ boundary:
   - {region: a, body-force: {z: -9.81}}
   - {region: r, force: {x: 1}, moment: {y: 2}, rotation: {z: 0.1*t}, fix: [y, z]}
 loading: {end: 2.5, increments: 5, min-increment: 0.01, max-increment: 1}
-detection: {method: nearest-node, distance: 0.5, extension: 0}
+detection: {method: nearest-node, distance: 0.5, extension: 0, exchange: gathered}
 solver: {linear: direct, multipliers: coupled, tolerance: 1e-10, max-iterations: 40}
 output: {fields: [stress], every: 0}
 )");
@@ -92,6 +92,7 @@ output: {fields: [stress], every: 0}
   EXPECT_EQ(deck.detection.method, DetectionMethod::nearest_node);
   EXPECT_EQ(deck.detection.distance, 0.5);
   EXPECT_EQ(deck.detection.extension, 0);
+  EXPECT_EQ(deck.exchange.mode, ExchangeMode::gathered);
   EXPECT_EQ(deck.solver.linear, LinearSolverType::direct);
   EXPECT_EQ(deck.solver.max_iterations, 40);
   EXPECT_EQ(deck.output.fields, std::vector{OutputField::stress});

@@ -155,8 +155,7 @@ TEST_F(DistributedModel, EachElementIsOnOneProcess)
     const auto &ids = all.impactor().node_ids;
     for (Index i = 0; i < part.n_nodes(); ++i)
     {
-      const auto j =
-          static_cast<Index>(std::find(ids.begin(), ids.end(), part.impactor().node_ids[i]) - ids.begin());
+      const auto j = static_cast<Index>(std::find(ids.begin(), ids.end(), part.impactor().node_ids[i]) - ids.begin());
       EXPECT_EQ(part.pairing()[i].face, all.pairing()[j].face);
       EXPECT_NEAR(part.augmentation(i), all.augmentation(j), 1e-12 * all.augmentation(j));
       EXPECT_NEAR(part.areas()[i], all.areas()[j], 1e-14);

@@ -296,7 +296,7 @@ private:
   std::vector<std::vector<Index>> cells_; ///< by process
   std::vector<char> is_everywhere_;
   std::map<Index, std::vector<Index>> cells_of_node_;
-  std::map<std::string, std::vector<Rank>> processes_of_entities_; ///< by group
+  std::map<std::string, std::vector<Rank>> processes_of_entities_;  ///< by group
   std::vector<std::vector<std::vector<Index>>> faces_of_processes_; ///< by surface and process
   std::vector<Index> orphans_;       ///< nodes of entities that belong to no deformable cell
   std::vector<Index> position_;      ///< of each node in the part that is being made, or -1

@@ -71,7 +71,7 @@ void check_mortar(const Value &root, const Deck &deck)
   const Value *detection = root.find("detection");
   if (!detection || deck.contact.empty() || !std::all_of(deck.contact.begin(), deck.contact.end(), is_mortar))
     return;
-  for (const char *key : {"method", "extension"})
+  for (const char *key : {"method", "extension", "exchange"})
     if (const Value *value = detection->find(key))
       value->fail("is for discretization: node-to-face; mortar finds all faces that lie over each other within the "
                   "distance");

@@ -38,20 +38,36 @@ Section<LoadingOptions> loading_keys()
   return keys;
 }
 
-Section<DetectionOptions> detection_keys()
+/// The deck's section has keys of two rooms.
+struct DetectionKeys : DetectionOptions
 {
-  Section<DetectionOptions> keys;
-  keys.choice("method", &DetectionOptions::method,
+  ExchangeMode exchange = ExchangeMode::distributed;
+};
+
+template<class T>
+T DetectionKeys::*detection_key(T DetectionOptions::*member)
+{
+  return member;
+}
+
+Section<DetectionKeys> detection_keys()
+{
+  Section<DetectionKeys> keys;
+  keys.choice("method", detection_key(&DetectionOptions::method),
               {{"exact", DetectionMethod::exact},
                {"nearest-node", DetectionMethod::nearest_node},
                {"brute", DetectionMethod::brute}},
               optional,
               "exact: the closest point of the target; nearest-node: the four steps of the paper; brute: every face "
               "for every node, to check the others by");
-  keys.number_or("auto", "distance", &DetectionOptions::distance, positive, "length", "auto",
+  keys.number_or("auto", "distance", detection_key(&DetectionOptions::distance), positive, "length", "auto",
                  "how far from the target an impactor node is looked for; auto: from the target's faces");
-  keys.number_or("auto", "extension", &DetectionOptions::extension, not_negative, "length", "auto",
+  keys.number_or("auto", "extension", detection_key(&DetectionOptions::extension), not_negative, "length", "auto",
                  "how far past the target's ends its last face still counts; auto: a fraction of that face");
+  keys.choice("exchange", &DetectionKeys::exchange,
+              {{"distributed", ExchangeMode::distributed}, {"gathered", ExchangeMode::gathered}}, optional,
+              "over several processes; distributed: surfaces go straight to who searches there; gathered: through "
+              "process 0, as in the paper; the pairs are the same");
   return keys;
 }
 
@@ -171,8 +187,12 @@ Section<Deck> deck_keys()
                              into(&Deck::boundary));
   keys.map<LoadingOptions>("loading", loading_keys(), otherwise("one increment"), "the way the load is applied",
                            [](Deck &deck, LoadingOptions loading) { deck.loading = loading; });
-  keys.map<DetectionOptions>("detection", detection_keys(), otherwise("exact"), "how contact is found",
-                             [](Deck &deck, DetectionOptions detection) { deck.detection = detection; });
+  keys.map<DetectionKeys>("detection", detection_keys(), otherwise("exact"), "how contact is found",
+                          [](Deck &deck, const DetectionKeys &detection)
+                          {
+                            deck.detection = detection;
+                            deck.exchange.mode = detection.exchange;
+                          });
   keys.map<SolverOptions>("solver", solver_keys(), otherwise("as below"), "how the equations are solved",
                           [](Deck &deck, SolverOptions solver) { deck.solver = solver; });
   keys.map<OutputOptions>("output", output_keys(), otherwise("as below"), "what is written besides the record",

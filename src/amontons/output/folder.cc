@@ -20,8 +20,8 @@ bool is_result(const fs::path &file)
 {
   const std::string name = file.filename().string();
   const std::string extension = file.extension().string();
-  const bool of_contact =
-      name.starts_with("contact_") && (extension == ".csv" || extension == ".pvd" || extension == ".vtu" || extension == ".pvtu");
+  const bool of_contact = name.starts_with("contact_") &&
+                          (extension == ".csv" || extension == ".pvd" || extension == ".vtu" || extension == ".pvtu");
   const bool of_bodies =
       name == "solution.pvd" || (name.starts_with("solution_") && (extension == ".vtu" || extension == ".pvtu"));
   return name == "record.json" || of_contact || of_bodies || name.ends_with(".part");

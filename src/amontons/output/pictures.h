@@ -21,7 +21,8 @@ VtuGrid body_grid(const SolutionState &state, const std::vector<BodyOptions> &bo
 VtuGrid contact_grid(const ContactResult &contact, const SolutionState &state);
 
 /// Writes solution.pvd, contact_<name>.pvd and their .vtu files: the initial state, every n-th increment, the last.
-/// Over several processes each writes the .vtu of its own cells and faces, process 0 the .pvtu that holds them together.
+/// Over several processes each writes the .vtu of its own cells and faces, process 0 the .pvtu that holds them
+/// together.
 class Pictures : public Observer
 {
 public:

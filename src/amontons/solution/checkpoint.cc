@@ -270,8 +270,8 @@ Checkpoint gathered(const Checkpoint &local, const Mesh &mesh, const Sharing &no
   if (in.empty()) // not on process 0
     return {};
   Checkpoint whole = local;
-  const std::size_t n = local.state.displacement.size() +
-                        static_cast<std::size_t>(mesh.n_global_nodes - mesh.n_nodes()) * mesh.dim;
+  const std::size_t n =
+      local.state.displacement.size() + static_cast<std::size_t>(mesh.n_global_nodes - mesh.n_nodes()) * mesh.dim;
   whole.state.displacement.assign(n, 0.0);
   if (whole.last)
     whole.last->start.displacement.assign(n, 0.0);

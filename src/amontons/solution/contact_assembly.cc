@@ -221,8 +221,7 @@ ContactContribution ContactAssembly::evaluate(const State &state, std::span<cons
 }
 
 void ContactAssembly::make_elements(const State &state, const Motions &motions,
-                                    std::span<const std::pair<int, Index>> forced, bool first,
-                                    ContactContribution &out)
+                                    std::span<const std::pair<int, Index>> forced, bool first, ContactContribution &out)
 {
   holding_.clear();
   candidates_.clear();

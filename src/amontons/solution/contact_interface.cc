@@ -1,6 +1,5 @@
 #include "amontons/solution/contact_interface.h"
 
-#include "amontons/bulk/surface_extraction.h"
 #include "amontons/contact/frame.h"
 #include "amontons/contact/kinematics.h"
 #include "amontons/surface/normals.h"
@@ -31,21 +30,6 @@ MeanStiffness::MeanStiffness(std::span<const double> diagonal, std::span<const I
         sum += k;
         ++n;
       }
-}
-
-std::vector<Surface> contact_sides(const Mesh &mesh, const ContactOptions &options,
-                                   const std::vector<BodyOptions> &bodies)
-{
-  std::vector<Surface> sides{extract_surface(mesh, options.impactor, options.where)};
-  if (options.is_self_contact())
-    sides[0].face_bodies = bodies_of_faces(mesh, sides[0]);
-  else if (std::none_of(bodies.begin(), bodies.end(),
-                        [&](const BodyOptions &body) { return body.shape && body.name == options.target; }))
-  {
-    sides.push_back(extract_surface(mesh, options.target, options.where));
-    check_not_welded(mesh, sides[0], sides[1], options.impactor, options.target, options.where);
-  }
-  return sides;
 }
 
 ContactInterface::ContactInterface(const std::vector<double> &points, Kinematics kinematics, Strain strain,

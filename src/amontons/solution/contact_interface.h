@@ -1,16 +1,14 @@
 #pragma once
-#include "amontons/bulk/mesh.h"
 #include "amontons/bulk/rigid_bodies.h"
 #include "amontons/contact/element.h"
-#include "amontons/contact/mortar.h"
 #include "amontons/contact/options.h"
 #include "amontons/detection/report.h"
+#include "amontons/solution/contact_surfaces.h"
 #include "amontons/solution/results.h"
 #include "amontons/surface/shape.h"
 
 #include <algorithm>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,24 +26,6 @@ struct ContactHistory
   std::vector<GlobalIndex> face_nodes; ///< [n * max_face_nodes] of the face that each is paired with, or -1
   std::vector<ContactStatus> status;   ///< [n]
   std::vector<double> total_slip;      ///< as ContactResult::slip
-};
-
-/// The meshed sides of a contact: the impactor, then the target, if that is another surface of the mesh.
-/// @throws UserError as extract_surface() and check_not_welded()
-std::vector<Surface> contact_sides(const Mesh &mesh, const ContactOptions &options,
-                                   const std::vector<BodyOptions> &bodies);
-
-/// What one process has of a contact's surfaces; all of them on one process. Ids are positions in the whole mesh.
-struct ContactSurfaces
-{
-  Surface impactor;            ///< the nodes that the process owns first, then those of its faces that others own
-  Index n_own = 0;             ///< nodes of the impactor that are its own
-  std::vector<Index> nodes;    ///< [n_nodes] of the impactor: positions on the process
-  std::optional<Surface> target;   ///< none in self-contact and where it is analytic
-  std::vector<Index> target_nodes; ///< its positions on the process
-  Sharing sharing;                 ///< of the impactor's nodes
-  /// The same whole, of which every process has all: both for mortar, the target for smoothed normals; else none.
-  std::shared_ptr<const Surface> whole_impactor, whole_target;
 };
 
 /// Positive diagonal entries of the stiffness at some nodes: their sum, and how many. @param diagonal nodal
@@ -238,11 +218,11 @@ private:
   std::vector<double> areas_, augmentation_;
   std::optional<double> mortar_distance_; ///< w: the user's, once coupled what was taken
   std::optional<MortarMeans> mortar_;     ///< as last coupled
-  Pairing pairing_, start_pairing_;           ///< now, and at the increment's beginning; faces by their ids
-  TargetFaces faces_, start_faces_;           ///< with them
-  std::vector<Index> smoothed_positions_;     ///< of the whole target's nodes
-  std::vector<double> target_normals_;        ///< at the corners of its faces at the increment's beginning, or empty
-  std::vector<int> n_face_changes_;           ///< within the increment
+  Pairing pairing_, start_pairing_;       ///< now, and at the increment's beginning; faces by their ids
+  TargetFaces faces_, start_faces_;       ///< with them
+  std::vector<Index> smoothed_positions_; ///< of the whole target's nodes
+  std::vector<double> target_normals_;    ///< at the corners of its faces at the increment's beginning, or empty
+  std::vector<int> n_face_changes_;       ///< within the increment
   std::vector<Eigen::Vector3d> slip_origin_;
   std::vector<char> has_origin_;
   std::vector<double> start_gap_;

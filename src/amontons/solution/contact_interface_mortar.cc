@@ -1,4 +1,5 @@
 #include "amontons/contact/kinematics.h"
+#include "amontons/contact/mortar.h"
 #include "amontons/detection/face_boxes.h"
 #include "amontons/solution/contact_interface.h"
 #include "amontons/surface/projection.h"
@@ -47,7 +48,8 @@ void ContactInterface::couple(double reach)
   MortarMeans &means = mortar_.emplace();
   for (Index i = 0; i < n_nodes(); ++i)
   {
-    const auto place = std::lower_bound(impactor.node_ids.begin(), impactor.node_ids.end(), this->impactor().node_ids[i]);
+    const auto place =
+        std::lower_bound(impactor.node_ids.begin(), impactor.node_ids.end(), this->impactor().node_ids[i]);
     const auto j = static_cast<Index>(place - impactor.node_ids.begin());
     means.sees.push_back(whole.sees_target(j) ? 1 : 0);
     means.normal.push_back(whole.normal[j]);

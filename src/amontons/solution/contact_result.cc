@@ -82,10 +82,8 @@ namespace
 {
 void add_up(ContactResult &result, const Sharing &processes)
 {
-  std::array<double, 11> sums{static_cast<double>(result.n_nodes),
-                              static_cast<double>(result.n_active),
-                              static_cast<double>(result.n_stick),
-                              static_cast<double>(result.n_slip),
+  std::array<double, 11> sums{static_cast<double>(result.n_nodes), static_cast<double>(result.n_active),
+                              static_cast<double>(result.n_stick), static_cast<double>(result.n_slip),
                               result.contact_area};
   std::copy_n(result.normal_force.begin(), 3, sums.begin() + 5);
   std::copy_n(result.tangential_force.begin(), 3, sums.begin() + 8);

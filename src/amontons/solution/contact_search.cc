@@ -19,7 +19,7 @@ std::vector<double> places(const Surface &surface, std::span<const Index> nodes,
 } // namespace
 
 ContactSearch::ContactSearch(std::span<const ContactInterface> contacts, const DetectionOptions &options,
-                             const std::shared_ptr<MessageExchange> &messages)
+                             const ExchangeOptions &exchange, const std::shared_ptr<MessageExchange> &messages)
   : contacts_(contacts)
   , options_(options)
   , messages_(messages)
@@ -37,12 +37,11 @@ ContactSearch::ContactSearch(std::span<const ContactInterface> contacts, const D
       shares.push_back({&contact.impactor(), contact.n_nodes(), self ? nullptr : contact.target(), options,
                         contact.options().self_distance});
     else
-      of_contact_[c].detector =
-          self ? make_self_detector(options, contact.impactor(), contact.options().self_distance)
-               : make_detector(options, contact.impactor(), *contact.target());
+      of_contact_[c].detector = self ? make_self_detector(options, contact.impactor(), contact.options().self_distance)
+                                     : make_detector(options, contact.impactor(), *contact.target());
   }
   if (!shares.empty())
-    parallel_ = make_parallel_detector(messages->communicator(), {}, std::move(shares));
+    parallel_ = make_parallel_detector(messages->communicator(), exchange, std::move(shares));
 }
 
 void ContactSearch::search(std::span<const double> displacement, std::span<const double> reaches, bool reference)

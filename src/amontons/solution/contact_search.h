@@ -17,7 +17,7 @@ public:
   /// Collective, as all members but those of the last search. @param contacts must stay where they are
   /// @param messages null on one process
   ContactSearch(std::span<const ContactInterface> contacts, const DetectionOptions &options,
-                const std::shared_ptr<MessageExchange> &messages);
+                const ExchangeOptions &exchange, const std::shared_ptr<MessageExchange> &messages);
 
   /// @param displacement nodal, of the process; of the searched contacts' own surfaces
   /// @param reaches by contact, see Detector::detect @param reference leaves displacements out (small strain)

@@ -48,40 +48,6 @@ RigidParts rigid_parts(const Mesh &mesh, const std::vector<BodyOptions> &bodies)
   }
   return out;
 }
-
-/// Whether smoothed normals at the target's corners are wanted, for which every process needs the faces round them.
-bool has_smoothed_target(const ContactOptions &contact, Strain strain)
-{
-  return strain == Strain::finite && contact.normals == TargetNormals::smoothed &&
-         contact.discretization == Discretization::node_to_face;
-}
-
-/// The surface with the nodes that are the process's own before those of its faces that are not; others are left out.
-Surface own_first(const Surface &surface, const std::vector<char> &is_own)
-{
-  std::vector<Index> order;
-  for (Index i = 0; i < surface.n_nodes(); ++i)
-    if (is_own[i] != 0)
-      order.push_back(i);
-  for (Index i = 0; i < surface.n_nodes(); ++i)
-    if (is_own[i] == 0 && !surface.faces_of_node(i).empty())
-      order.push_back(i);
-  Surface out = surface;
-  out.node_ids.clear();
-  out.reference.clear();
-  std::vector<Index> place(is_own.size(), -1);
-  for (const Index i : order)
-  {
-    place[i] = out.n_nodes();
-    out.node_ids.push_back(surface.node_ids[i]);
-    const auto x = surface.reference.begin() + static_cast<std::ptrdiff_t>(i) * surface.dim;
-    out.reference.insert(out.reference.end(), x, x + surface.dim);
-  }
-  for (Index &node : out.face_nodes)
-    node = place[node];
-  out.build_adjacency();
-  return out;
-}
 } // namespace
 
 Model::Model(const ProblemOptions &options, std::shared_ptr<MessageExchange> messages)
@@ -116,7 +82,7 @@ void Model::read_whole(int n_processes)
     const bool is_analytic = sides.size() == 1 && !contact.is_self_contact();
     if (contact.discretization == Discretization::mortar)
       part_.whole_surfaces.insert(part_.whole_surfaces.end(), sides.begin(), sides.end());
-    else if (has_smoothed_target(contact, options_.strain) && !is_analytic)
+    else if (wants_whole_target(contact, options_.strain) && !is_analytic)
       part_.whole_surfaces.push_back(sides.back());
     std::move(sides.begin(), sides.end(), std::back_inserter(part_.surfaces));
   }
@@ -185,7 +151,7 @@ void Model::build_contacts()
     }
     if (contact.discretization == Discretization::mortar && !analytic && !contact.is_self_contact())
       surfaces.whole_impactor = std::make_shared<const Surface>(std::move(*whole++));
-    if (surfaces.whole_impactor || (has_smoothed_target(contact, options_.strain) && !analytic))
+    if (surfaces.whole_impactor || (wants_whole_target(contact, options_.strain) && !analytic))
       surfaces.whole_target = std::make_shared<const Surface>(std::move(*whole++));
     contacts_.emplace_back(points_, options_.mesh.kinematics, options_.strain, contact, options_.detection,
                            std::move(surfaces), analytic);
@@ -233,7 +199,7 @@ void Model::build_search()
     contact.share(messages_);
     contact.place_faces([this](GlobalIndex id) { return position(id); });
   }
-  search_ = std::make_unique<ContactSearch>(contacts_, options_.detection, nodes_.messages());
+  search_ = std::make_unique<ContactSearch>(contacts_, options_.detection, options_.exchange, nodes_.messages());
   auto n = static_cast<double>(std::accumulate(contacts_.begin(), contacts_.end(), Index(0),
                                                [](Index sum, const auto &c) { return sum + c.n_nodes(); })) *
            dim();

@@ -133,7 +133,7 @@ private:
   std::unique_ptr<Supports> supports_;
   std::unique_ptr<BodyAssembly> bodies_;
   std::vector<ContactInterface> contacts_;
-  std::unique_ptr<ContactSearch> search_;         ///< in small strain until it has found the pairs, for good
+  std::unique_ptr<ContactSearch> search_;          ///< in small strain until it has found the pairs, for good
   std::vector<DetectionReport> detection_reports_; ///< from then on
   GlobalIndex n_global_multipliers_ = 0;
   std::vector<int> rigid_of_node_;

@@ -70,8 +70,8 @@ void Model::update_halo()
           wanted.push_back(id);
     std::sort(wanted.begin(), wanted.end());
     wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-    const bool has_all = std::all_of(wanted.begin(), wanted.end(),
-                                     [this](GlobalIndex id) { return position_of_id_.count(id) > 0; });
+    const bool has_all =
+        std::all_of(wanted.begin(), wanted.end(), [this](GlobalIndex id) { return position_of_id_.count(id) > 0; });
     if (!nodes_.true_on_all(has_all))
     {
       number_nodes(std::move(wanted));

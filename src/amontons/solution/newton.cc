@@ -135,8 +135,8 @@ bool Newton::runs_away(const Evaluation &from, const Evaluation &next) const
   return next.norm > (plastic_only ? 1 : allowed_growth) * from.norm;
 }
 
-Newton::Iterate Newton::step_from(const Iterate &from, const State &start, double time,
-                                  const Step &step, bool damp, double &share)
+Newton::Iterate Newton::step_from(const Iterate &from, const State &start, double time, const Step &step, bool damp,
+                                  double &share)
 {
   Iterate next;
   share = damp ? 0.5 : 1;

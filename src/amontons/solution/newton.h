@@ -67,8 +67,8 @@ private:
   /// Newton's iterations from `now` to the solution, which replaces it. @throws NumericalFailure with the cause
   void iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome);
   [[nodiscard]] bool runs_away(const Evaluation &from, const Evaluation &next) const;
-  [[nodiscard]] Iterate step_from(const Iterate &from, const State &start, double time,
-                                  const Step &step, bool damp, double &share);
+  [[nodiscard]] Iterate step_from(const Iterate &from, const State &start, double time, const Step &step, bool damp,
+                                  double &share);
   [[nodiscard]] IterationReport compare(const Iterate &before, const Iterate &after);
   void restrain(Evaluation &at, const State &state, const State &start, double time, bool first);
   void update_rigid_blocks(const State &state, std::span<const double> contact_force);

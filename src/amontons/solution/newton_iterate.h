@@ -17,13 +17,13 @@ using Closed = std::vector<std::pair<int, Index>>;
 struct Newton::Evaluation
 {
   bool valid = false;
-  std::vector<double> pending;  ///< prescribed motion still to come, as in a state
-  std::vector<double> residual; ///< internal - external + contact, nodal
-  std::vector<double> rhs;      ///< minus the residual, over the unknowns, prescribed motion included
+  std::vector<double> pending;       ///< prescribed motion still to come, as in a state
+  std::vector<double> residual;      ///< internal - external + contact, nodal
+  std::vector<double> rhs;           ///< minus the residual, over the unknowns, prescribed motion included
   std::vector<ContactStatus> status; ///< of the own contact nodes
   std::uint64_t signature = 0;       ///< of all processes' statuses and faces
-  double norm = 0, scale = 0;  ///< force
-  double pending_motion = 0;   ///< length
+  double norm = 0, scale = 0;        ///< force
+  double pending_motion = 0;         ///< length
 };
 
 struct Newton::Iterate

@@ -16,16 +16,16 @@ const char *name(ContactStatus status)
 }
 } // namespace
 
-/// Whether the node of this process is the one of all that has counted most, of equal ones that of the lowest contact and
-/// id, and at least so much. Collective. @param node -1: this process has none
+/// Whether the node of this process is the one of all that has counted most, of equal ones that of the lowest contact
+/// and id, and at least so much. Collective. @param node -1: this process has none
 bool Newton::is_first_of_most(int count, std::size_t contact, GlobalIndex node, int least) const
 {
   const Sharing &processes = model_.nodes();
   const double most = processes.maximum_over_processes(node < 0 ? 0 : count);
   if (most < least)
     return false;
-  const double place = static_cast<double>(contact) * static_cast<double>(model_.mesh().n_global_nodes) +
-                       static_cast<double>(node);
+  const double place =
+      static_cast<double>(contact) * static_cast<double>(model_.mesh().n_global_nodes) + static_cast<double>(node);
   const bool is_candidate = node >= 0 && count == most;
   const double first = -processes.maximum_over_processes(is_candidate ? -place : -HUGE_VAL);
   return is_candidate && place == first;
@@ -51,8 +51,7 @@ std::string Newton::remark(const Evaluation &now, std::span<const ContactStatus>
     return "node " + std::to_string(model_.mesh().node_tags[model_.position(id)]) + " " + name(before[worst]) + "<->" +
            name(now.status[worst]) + ", change " + std::to_string(most);
   };
-  const std::string told =
-      told_by_one(model_.nodes(), is_first_of_most(most, worst_contact, id, named_flips), text);
+  const std::string told = told_by_one(model_.nodes(), is_first_of_most(most, worst_contact, id, named_flips), text);
   return told.empty() ? face_remark() : told;
 }
 

@@ -167,9 +167,8 @@ void Newton::restrain(Evaluation &at, const State &state, const State &start, do
 {
   if (!free_motions_.any())
     return;
-  const FreeMotions::Decision decision =
-      free_motions_.decide(model_.with_halo(state.displacement), contacts_.holding(), contacts_.candidates(),
-                           at.residual, time, at.scale);
+  const FreeMotions::Decision decision = free_motions_.decide(model_.with_halo(state.displacement), contacts_.holding(),
+                                                              contacts_.candidates(), at.residual, time, at.scale);
   const bool bordered = form_->set_held_modes(decision.held_modes);
   if (decision.closes || bordered)
     at = evaluate(state, start, time, decision.closed, first);

@@ -2,6 +2,7 @@
 #include "amontons/bulk/options.h"
 #include "amontons/contact/options.h"
 #include "amontons/detection/options.h"
+#include "amontons/exchange/options.h"
 
 #include <optional>
 #include <string>
@@ -50,6 +51,7 @@ struct ProblemOptions
   LoadingOptions loading;
   Strain strain = Strain::small;
   DetectionOptions detection;
+  ExchangeOptions exchange; ///< over several processes
   SolverOptions solver;
 };
 } // namespace amontons

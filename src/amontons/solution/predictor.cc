@@ -147,7 +147,8 @@ std::vector<std::pair<int, Index>> Predictor::touching(const State &now, const S
 {
   std::vector<std::pair<int, Index>> out;
   std::vector<ContactInterface> &contacts = model_.contacts();
-  const std::vector<double> before = model_.with_halo(now.displacement), after = model_.with_halo(approach.displacement);
+  const std::vector<double> before = model_.with_halo(now.displacement),
+                            after = model_.with_halo(approach.displacement);
   for (std::size_t c = 0; c < contacts.size(); ++c)
     for (Index i = 0; i < contacts[c].n_nodes(); ++i)
     {

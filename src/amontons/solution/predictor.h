@@ -38,9 +38,9 @@ public:
 private:
   struct Loads
   {
-    std::vector<double> displacement;        ///< as in a state
-    std::vector<double> force;               ///< nodal
-    std::vector<double> on_rigid;            ///< forces on the rigid bodies' unknowns
+    std::vector<double> displacement; ///< as in a state
+    std::vector<double> force;        ///< nodal
+    std::vector<double> on_rigid;     ///< forces on the rigid bodies' unknowns
   };
   [[nodiscard]] Loads loads(const State &state, double time);
   /// The factor by which the loads' change from `from` to `to` is the one from start to `from`, if it is one.

@@ -143,8 +143,8 @@ std::string overlap_warning(const Model &model, std::size_t c, const FirstPairs 
   const double size = std::pow(contact.areas()[node], 1.0 / (model.dim() - 1));
   if (found.deepest >= -overlap_to_tell * size)
     return "";
-  return "contact '" + contact.options().name + "': " +
-         std::to_string(static_cast<std::int64_t>(found.n_penetrations)) +
+  return "contact '" + contact.options().name +
+         "': " + std::to_string(static_cast<std::int64_t>(found.n_penetrations)) +
          " nodes lie inside the target at the start, deepest " + std::to_string(found.deepest) + " at node " +
          std::to_string(model.mesh().node_tags[contact.node(node)]) +
          (contact.options().initial_overlap == InitialOverlap::adjust ? "; taken as touching"
