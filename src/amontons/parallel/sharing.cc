@@ -10,18 +10,31 @@ namespace amontons
 {
 namespace
 {
-/// An item that several processes have, as who looks after its id tells them.
-struct Holder
-{
-  Rank rank;
-  char prefers;
-};
-
 struct Entry
 {
   GlobalIndex id;
   char prefers;
 };
+
+using Holder = Sharing::Holder;
+
+bool is_before(const Holder &a, const Holder &b)
+{
+  return a.id < b.id || (a.id == b.id && a.rank < b.rank);
+}
+
+/// Calls take(holders of an id, by rank) for each id of some holders, which are put in order.
+template<class Take>
+void for_each_item(std::vector<Holder> &holders, Take &&take)
+{
+  std::sort(holders.begin(), holders.end(), is_before);
+  for (auto first = holders.begin(); first != holders.end();)
+  {
+    const auto end = std::find_if(first, holders.end(), [&](const Holder &h) { return h.id != first->id; });
+    take(std::span<const Holder>(first, end));
+    first = end;
+  }
+}
 
 /// All messages of a map from rank to what is written for it.
 std::vector<Message> messages_of(std::map<Rank, ByteWriter> &writers)
@@ -50,62 +63,68 @@ Sharing::Sharing(std::shared_ptr<MessageExchange> messages, std::string phase, s
 /// others.
 void Sharing::find_copies(std::span<const GlobalIndex> ids, std::span<const char> preferred)
 {
-  const int n_ranks = n_processes();
   std::map<Rank, std::vector<Entry>> told;
   for (std::size_t i = 0; i < ids.size(); ++i)
-    told[static_cast<Rank>(ids[i] % n_ranks)].push_back({ids[i], preferred.empty() ? char(0) : preferred[i]});
+    told[static_cast<Rank>(ids[i] % n_processes())].push_back({ids[i], preferred.empty() ? char(0) : preferred[i]});
   std::map<Rank, ByteWriter> writers;
   for (const auto &[rank, entries] : told)
     writers[rank].add_array(entries);
+  std::vector<Holder> holders;
+  for (const Message &message : messages_->exchange(phase_, messages_of(writers)))
+    for (const Entry &entry : ByteReader(message.bytes).get_array<Entry>())
+      holders.push_back({entry.id, message.rank, entry.prefers});
 
-  std::map<GlobalIndex, std::vector<Holder>> holders;
+  std::map<Rank, std::vector<Holder>> answers;
+  for_each_item(holders,
+                [&](std::span<const Holder> of_item)
+                {
+                  if (of_item.size() > 1)
+                    for (const Holder &to : of_item)
+                      answers[to.rank].insert(answers[to.rank].end(), of_item.begin(), of_item.end());
+                });
+  writers.clear();
+  for (const auto &[rank, of_items] : answers)
+    writers[rank].add_array(of_items);
+  holders.clear();
   for (const Message &message : messages_->exchange(phase_, messages_of(writers)))
   {
-    ByteReader reader(message.bytes);
-    for (const Entry &entry : reader.get_array<Entry>())
-      holders[entry.id].push_back({message.rank, entry.prefers});
+    const std::vector<Holder> more = ByteReader(message.bytes).get_array<Holder>();
+    holders.insert(holders.end(), more.begin(), more.end());
   }
-  writers.clear();
-  for (const auto &[id, of_item] : holders)
-    if (of_item.size() > 1)
-      for (const Holder &to : of_item)
-      {
-        writers[to.rank].add(id);
-        writers[to.rank].add_array(of_item);
-      }
+  take_holders(ids, std::move(holders));
+}
 
-  std::map<GlobalIndex, Index> place;
+/// @param holders of all items with copies elsewhere
+void Sharing::take_holders(std::span<const GlobalIndex> ids, std::vector<Holder> holders)
+{
+  std::vector<std::pair<GlobalIndex, Index>> place;
   for (std::size_t i = 0; i < ids.size(); ++i)
-    place.emplace(ids[i], static_cast<Index>(i));
-  AMONTONS_ASSERT(place.size() == ids.size());
+    place.emplace_back(ids[i], static_cast<Index>(i));
+  std::sort(place.begin(), place.end());
+  AMONTONS_ASSERT(std::adjacent_find(place.begin(), place.end(),
+                                     [](const auto &a, const auto &b) { return a.first == b.first; }) == place.end());
   owner_.assign(ids.size(), rank());
   n_copies_.assign(ids.size(), 1);
-  std::map<Rank, std::vector<std::pair<GlobalIndex, Index>>> common;
-  for (const Message &message : messages_->exchange(phase_, messages_of(writers)))
-  {
-    ByteReader reader(message.bytes);
-    while (!reader.is_at_end())
-    {
-      const auto id = reader.get<GlobalIndex>();
-      const Index item = place.at(id);
-      const std::vector<Holder> of_item = reader.get_array<Holder>();
-      n_copies_[item] = static_cast<int>(of_item.size());
-      // Messages come by rank, so holders do.
-      const auto wishes = std::find_if(of_item.begin(), of_item.end(), [](const Holder &h) { return h.prefers != 0; });
-      owner_[item] = (wishes == of_item.end() ? of_item.front() : *wishes).rank;
-      shared_.push_back(item);
-      for (const Holder &holder : of_item)
-        if (holder.rank != rank())
-          common[holder.rank].emplace_back(id, item);
-    }
-  }
+  std::map<Rank, std::vector<Index>> common; // by increasing id
+  auto next = place.begin();
+  for_each_item(holders,
+                [&](std::span<const Holder> of_item)
+                {
+                  next = std::lower_bound(next, place.end(), std::pair{of_item.front().id, Index(0)});
+                  const Index item = next->second;
+                  n_copies_[item] = static_cast<int>(of_item.size());
+                  const auto wishes =
+                      std::find_if(of_item.begin(), of_item.end(), [](const Holder &h) { return h.prefers != 0; });
+                  owner_[item] = (wishes == of_item.end() ? of_item.front() : *wishes).rank;
+                  shared_.push_back(item);
+                  for (const Holder &holder : of_item)
+                    if (holder.rank != rank())
+                      common[holder.rank].push_back(item);
+                });
   std::sort(shared_.begin(), shared_.end());
   for (auto &[other, items] : common)
   {
-    std::sort(items.begin(), items.end());
-    Neighbour &neighbour = neighbours_.emplace_back(Neighbour{other, {}});
-    for (const auto &[id, item] : items)
-      neighbour.items.push_back(item);
+    neighbours_.push_back({other, std::move(items)});
     neighbour_ranks_.push_back(other);
   }
 }

@@ -24,6 +24,14 @@ public:
     std::vector<Index> items; ///< that both have, by increasing id
   };
 
+  /// An item that a process has, as who looks after its id knows and tells.
+  struct Holder
+  {
+    GlobalIndex id;
+    Rank rank;
+    char prefers; ///< to own it
+  };
+
   explicit Sharing(Index n = 0)
     : n_(n)
     , n_own_(n)
@@ -77,6 +85,7 @@ public:
 
 private:
   void find_copies(std::span<const GlobalIndex> ids, std::span<const char> preferred);
+  void take_holders(std::span<const GlobalIndex> ids, std::vector<Holder> holders);
   void number_items(std::span<const GlobalIndex> ids);
   template<class Combine>
   void combine(std::span<double> values, int width, Combine &&take) const;
