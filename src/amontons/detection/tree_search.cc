@@ -1,5 +1,7 @@
 #include "amontons/detection/tree_search.h"
 
+#include <limits>
+
 namespace amontons
 {
 using Eigen::Vector3d;
@@ -132,13 +134,19 @@ void TreeSearch<dim>::consider(Sought &sought, std::uint32_t slot, LocalPoint xi
 }
 
 template<int dim>
-double TreeSearch<dim>::first_edge(std::uint32_t slot) const
+double TreeSearch<dim>::shortest_edge(std::uint32_t slot) const
 {
   const auto corners = faces_.corners(slot);
-  double squared_length = 0;
-  for (int c = 0; c < dim; ++c)
-    squared_length += (corners[1][c] - corners[0][c]) * (corners[1][c] - corners[0][c]);
-  return std::sqrt(squared_length);
+  const int n = faces_.n_nodes(slot);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < n; ++k)
+  {
+    double squared_length = 0;
+    for (int c = 0; c < dim; ++c)
+      squared_length += (corners[(k + 1) % n][c] - corners[k][c]) * (corners[(k + 1) % n][c] - corners[k][c]);
+    shortest = std::min(shortest, squared_length);
+  }
+  return std::sqrt(shortest);
 }
 
 template<int dim>

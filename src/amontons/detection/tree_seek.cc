@@ -13,6 +13,7 @@ void TreeSearch<dim>::seek(const Query &query, std::size_t block, std::span<cons
   n_leaves_ = static_cast<int>(near_.leaves(block).size());
   std::copy_n(near_.leaves(block).data(), n_leaves_, leaves_.data());
   is_front_of_block_ = true;
+  near_faces_.clear();
   std::array<int, block_size> pending;
   int n_pending = static_cast<int>(nodes.size());
   for (int place = 0; place < n_pending; ++place)
@@ -49,10 +50,13 @@ void TreeSearch<dim>::start(const Query &query, std::span<const Index> nodes)
   const int n = static_cast<int>(nodes.size());
   for (int place = 0; place < n; ++place)
   {
-    Sought &sought = block_[place] = Sought{};
-    sought.w = query.w;
+    Sought &sought = block_[place];
     const double *x = query.x.data() + static_cast<std::ptrdiff_t>(nodes[place]) * dim;
-    std::copy_n(x, dim, sought.x.begin());
+    for (std::size_t c = 0; c < dim; ++c)
+      sought.x[c] = x[c];
+    sought.w = query.w;
+    sought.slot = no_slot;
+    sought.is_crowded = sought.is_done = false;
   }
   for (int place = 0; place < n; ++place)
     if (const std::uint32_t hint = hints_[nodes[place]]; hint != no_slot)
@@ -74,7 +78,8 @@ void TreeSearch<dim>::expect(std::span<const std::uint32_t> leaves) const
 template<int dim>
 void TreeSearch<dim>::seek_once(const Query &query, std::span<const int> places)
 {
-  if (const Region<dim> needed = region_of(places); !region_.covers(needed))
+  const Region<dim> needed = region_of(places);
+  if (!region_.covers(needed))
   {
     std::array<int, block_size> all;
     for (int place = 0; place < static_cast<int>(nodes_.size()); ++place)
@@ -83,6 +88,8 @@ void TreeSearch<dim>::seek_once(const Query &query, std::span<const int> places)
     block.reach = needed.reach;
     is_front_of_block_ = collect(block, usual_margin_);
   }
+  if (region_.covers(needed))
+    gather(needed);
   for (std::size_t first = 0; first < places.size(); first += group_size)
     seek_group(query, places.subspan(first, std::min<std::size_t>(group_size, places.size() - first)));
   project_all();
@@ -125,39 +132,43 @@ template<int dim>
 void TreeSearch<dim>::seek_group(const Query &query, std::span<const int> places)
 {
   const Region<dim> needed = region_of(places);
-  if (!region_.covers(needed))
+  if (!near_faces_.hold(needed))
   {
-    is_front_of_block_ = false;
-    if (!collect(needed, 0))
+    if (!region_.covers(needed))
+    {
+      is_front_of_block_ = false;
+      if (!collect(needed, 0))
+        return part_crowd(query, places);
+    }
+    if (!gather(needed))
       return part_crowd(query, places);
   }
-  if (!measure(places, needed))
-    return part_crowd(query, places);
+  measure(places, needed);
   guess(query, places);
   look_around(query, places);
 }
 
+template<int dim>
+bool TreeSearch<dim>::gather(const Region<dim> &needed)
+{
+  return near_faces_.gather(tree_, faces_, std::span(leaves_).first(static_cast<std::size_t>(n_leaves_)), needed);
+}
+
 // Holds the nodes against the faces near them. All are seen as far as the farthest of them looks.
 template<int dim>
-bool TreeSearch<dim>::measure(std::span<const int> places, const Region<dim> &needed)
+void TreeSearch<dim>::measure(std::span<const int> places, const Region<dim> &needed)
 {
   bool all_known = true;
-  for (std::size_t i = 0; i < places.size(); ++i)
-  {
-    Sought &sought = block_[places[i]];
-    const auto x = tree_.relative(sought.x.data());
-    for (int c = 0; c < dim; ++c)
-      group_.x[c][i] = x[c];
-    all_known = all_known && sought.is_found() && sought.bound() <= sought.radius;
-  }
-  if (!tree_.measure(std::span(leaves_).first(static_cast<std::size_t>(n_leaves_)), static_cast<int>(places.size()),
-                     needed.reach * needed.reach, group_, all_known ? nullptr : likeliest_.data()))
-    return false;
+  for (const int place : places)
+    all_known = all_known && block_[place].is_found() && block_[place].bound() <= block_[place].radius;
+  const double reach = needed.reach - faces_.motion();
+  near_faces_.measure(
+      static_cast<int>(places.size()), [&](int i) -> const auto & { return block_[places[i]].x; }, reach, group_,
+      all_known ? nullptr : likeliest_.data());
   if (all_known)
     likeliest_.fill(no_slot);
   for (const int place : places)
-    block_[place].radius = std::max(block_[place].radius, needed.reach - faces_.motion());
-  return true;
+    block_[place].radius = std::max(block_[place].radius, reach);
 }
 
 // Projects on the likeliest face of each node that has none yet within its radius.
@@ -182,8 +193,7 @@ void TreeSearch<dim>::look_around(const Query &query, std::span<const int> place
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     const Sought &sought = block_[places[i]];
-    const double reach = std::min(sought.bound(), sought.radius) + faces_.motion();
-    bounds[i] = BoxTree<dim>::rounded_up(reach * reach);
+    bounds[i] = near_faces_.squared_bound(std::min(sought.bound(), sought.radius));
     known[i] = sought.slot;
   }
   box_kernels<dim>().select(group_, bounds.data(), known.data(), in_reach_.data());
@@ -215,7 +225,7 @@ void TreeSearch<dim>::expect_alike(const Query &query, int n_nodes)
     radius = std::max(radius, 1.2 * sought.bound());
   usual_radius_ = std::min(radius, query.w);
   if (const std::uint32_t slot = block_[n_nodes - 1].slot; slot != no_slot)
-    usual_margin_ = margin * first_edge(slot);
+    usual_margin_ = margin * shortest_edge(slot);
 }
 
 // Too many faces for all: the radius is taken for too large, then the nodes for too far apart.
