@@ -60,6 +60,12 @@ public:
       return 0;
     return box_kernels<dim>().collect(view(), low.data(), high.data(), rounded_up(squared_bound), leaves, capacity);
   }
+  /// list() will be asked for this leaf.
+  void expect_leaf(std::uint32_t leaf) const
+  {
+    for (std::size_t line = 0; line < sizeof(BoxNode<dim>); line += 64)
+      __builtin_prefetch(reinterpret_cast<const char *>(nodes_.data() + leaf) + line);
+  }
   /// The slots of these leaves' faces that come within the bound of a box. @param low, high its corners, relative()
   /// @param slots [capacity] @return how many; more than `capacity`: too many
   int list(std::span<const std::uint32_t> leaves, const FloatPoint &low, const FloatPoint &high, double squared_bound,

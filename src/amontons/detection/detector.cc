@@ -91,6 +91,7 @@ private:
   Timers timers_;
   // Kept for their memory.
   LargeVector<Index> nodes_; ///< inside the target's grown box
+  std::vector<std::uint32_t> block_begins_;
   Query query_;
 };
 
@@ -111,8 +112,11 @@ void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span
     }
   nodes_.clear();
   nodes_.reserve(pairing_.size());
+  block_begins_.clear();
   for (Index k = 0; k < impactor_.n_nodes(); ++k)
   {
+    if (k % Query::block_size == 0)
+      block_begins_.push_back(static_cast<std::uint32_t>(nodes_.size()));
     const Index node = visiting_order_.empty() ? k : visiting_order_[k];
     const double *x = impactor_x.data() + static_cast<std::ptrdiff_t>(node) * dim;
     bool inside = true;
@@ -128,6 +132,7 @@ void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span
       pairing_[node] = Pairer::none(NoPairReason::outside_box);
     }
   }
+  block_begins_.push_back(static_cast<std::uint32_t>(nodes_.size()));
   if (!std::all_of(sums.begin(), sums.end(), [](double sum) { return std::isfinite(sum); }))
     throw NumericalFailure("contact detection: the nodes' positions are not finite");
 }
@@ -152,6 +157,7 @@ const Pairing &SurfaceDetector::detect_by(std::span<const double> impactor_x, st
     exclusions_->move_to(target_x);
   query_ = {impactor_x,
             nodes_,
+            block_begins_,
             distance_.w,
             options_.extension,
             exclusions_.has_value(),
@@ -165,6 +171,8 @@ const Pairing &SurfaceDetector::detect_by(std::span<const double> impactor_x, st
       [this](std::span<const Index> nodes, std::span<const Candidate> found)
       {
         const auto time = timers_.measure("projection");
+        for (const Index node : nodes)
+          __builtin_prefetch(&pairing_[node], 1);
         for (std::size_t i = 0; i < nodes.size(); ++i)
           pairer_.pair(query_, nodes[i], found[i], pairing_[nodes[i]]);
       },

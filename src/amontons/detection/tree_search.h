@@ -28,25 +28,22 @@ public:
               std::vector<Candidate> &result) override;
 
 private:
-  static constexpr int block_size = FaceBatch::capacity, most_leaves = 256;
+  static constexpr int block_size = Query::block_size, most_leaves = 256;
   static constexpr int group_size = PointGroup<dim>::most_points;
   static constexpr Index most_in_run = 4;
   // How much farther than needed leaves are collected, so that the next search needs no others, in edges of a face.
   static constexpr double margin = 0.3;
 
-  /// A node being sought.
+  /// A node being sought; what is known of its closest face stands in found_.
   struct Sought
   {
     std::array<double, dim> x;
-    double radius = 0; ///< faces within it have been or are looked at
-    double w = 0;
+    double radius = 0;            ///< faces within it have been or are looked at
+    double bound = 0;             ///< nothing farther is asked for: the distance of the closest so far, or w
     std::uint32_t slot = no_slot; ///< closest so far
-    LocalPoint xi{0, 0};
-    double squared_distance = 0, gap = 0;
-    bool is_crowded = false; ///< there were too many boxes within the radius
+    bool is_crowded = false;      ///< there were too many boxes within the radius
     bool is_done = false;
     [[nodiscard]] bool is_found() const { return slot != no_slot; }
-    [[nodiscard]] double bound() const { return is_found() ? std::min(w, std::sqrt(squared_distance)) : w; }
   };
   struct PendingPair
   {
@@ -63,6 +60,8 @@ private:
   void order(const Target &target);
   void refit();
   void seek(const Query &query, std::size_t block, std::span<const Index> nodes);
+  [[nodiscard]] static std::span<const Index> block_of(const Query &query, std::size_t block);
+  void expect(const Query &query, std::size_t block) const;
   void start(const Query &query, std::span<const Index> nodes);
   void expect(std::span<const std::uint32_t> leaves) const;
   void seek_once(const Query &query, std::span<const int> places);
@@ -75,13 +74,13 @@ private:
   [[nodiscard]] std::size_t widest_step(std::span<const int> places) const;
   void guess(const Query &query, std::span<const int> places);
   void look_around(const Query &query, std::span<const int> places);
-  [[nodiscard]] static bool is_done(Sought &sought);
+  [[nodiscard]] static bool is_done(Sought &sought, double w);
   void expect_alike(const Query &query, int n_nodes);
-  void descend(const Query &query, Sought &sought);
+  void descend(const Query &query, int place);
   void add(const Query &query, int place, std::uint32_t slot);
   void project(Batch &batch);
   void project_all();
-  void consider(Sought &sought, std::uint32_t slot, LocalPoint xi, double squared_distance, double gap);
+  void consider(int place, std::uint32_t slot, const Candidate &candidate);
   [[nodiscard]] GlobalIndex id(std::uint32_t slot) const { return surface_->face_ids[tree_.order()[slot]]; }
   [[nodiscard]] double shortest_edge(std::uint32_t slot) const;
 
