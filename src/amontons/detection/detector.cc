@@ -37,9 +37,11 @@ std::unique_ptr<Search> make_search(DetectionMethod method, int dim)
 class SurfaceDetector : public Detector
 {
 public:
-  SurfaceDetector(const DetectionOptions &options, const Surface &impactor, const Surface &target)
+  SurfaceDetector(const DetectionOptions &options, const Surface &impactor, const Surface &target,
+                  GivenNumbers given = {})
     : options_(options)
     , impactor_(impactor)
+    , given_(given)
     , target_(target)
     , search_(make_search(options.method, target.dim))
     , pairer_(impactor, target_, *search_)
@@ -79,6 +81,7 @@ private:
 
   DetectionOptions options_;
   const Surface &impactor_;
+  GivenNumbers given_; ///< of the pairs
   Target target_;
   std::unique_ptr<Search> search_;
   Pairer pairer_;
@@ -128,9 +131,7 @@ void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span
     if (inside)
       nodes_.push_back(node);
     else
-    {
-      pairing_[node] = Pairer::none(NoPairReason::outside_box);
-    }
+      pairing_[given_.node(node)] = Pairer::none(NoPairReason::outside_box);
   }
   block_begins_.push_back(static_cast<std::uint32_t>(nodes_.size()));
   if (!std::all_of(sums.begin(), sums.end(), [](double sum) { return std::isfinite(sum); }))
@@ -172,9 +173,13 @@ const Pairing &SurfaceDetector::detect_by(std::span<const double> impactor_x, st
       {
         const auto time = timers_.measure("projection");
         for (const Index node : nodes)
-          __builtin_prefetch(&pairing_[node], 1);
+          __builtin_prefetch(&pairing_[given_.node(node)], 1);
         for (std::size_t i = 0; i < nodes.size(); ++i)
-          pairer_.pair(query_, nodes[i], found[i], pairing_[nodes[i]]);
+        {
+          Pair &pair = pairing_[given_.node(nodes[i])];
+          pairer_.pair(query_, nodes[i], found[i], pair);
+          pair.face = given_.face(pair.face);
+        }
       },
       timers_);
   if (roles_)
@@ -191,14 +196,16 @@ void SurfaceDetector::summarise()
   DetectionReport &report = report_ = DetectionReport{};
   report.method = name_of(options_.method);
   report.distance = distance_.w;
-  report.distance_face = distance_.face;
+  report.distance_face = given_.face(distance_.face);
   report.seconds = timers_.seconds();
   count_pairs(pairing_, roles_.has_value(), report);
   if (roles_)
     summarise_self_contact();
   if (report.deepest_node >= 0)
   {
-    const Vector3d x = point_of(query_.x, impactor_.dim, report.deepest_node);
+    const auto own = std::find(given_.nodes.begin(), given_.nodes.end(), report.deepest_node);
+    const auto place = static_cast<Index>(own - given_.nodes.begin());
+    const Vector3d x = point_of(query_.x, impactor_.dim, given_.nodes.empty() ? report.deepest_node : place);
     report.deepest_point = {x.x(), x.y(), x.z()};
   }
 }
@@ -219,12 +226,12 @@ void SurfaceDetector::summarise_self_contact()
 
 std::unique_ptr<Detector> make_detector(const DetectionOptions &options, const Surface &impactor, const Surface &target)
 {
-  const auto make = [&options](const Surface &own_impactor, const Surface &own_target)
-  { return std::make_unique<SurfaceDetector>(options, own_impactor, own_target); };
+  const auto make = [&options](const Surface &own_impactor, const Surface &own_target, GivenNumbers given)
+  { return std::make_unique<SurfaceDetector>(options, own_impactor, own_target, given); };
   if (options.method == DetectionMethod::exact)
     if (auto renumbered = make_renumbered_detector(impactor, target, make))
       return renumbered;
-  return make(impactor, target);
+  return make(impactor, target, {});
 }
 
 std::unique_ptr<Detector> make_self_detector(const DetectionOptions &options, const Surface &surface,

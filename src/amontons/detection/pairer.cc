@@ -34,8 +34,9 @@ bool Pairer::is_behind(Index face, LocalPoint xi, double distance, Index node) c
     const auto tangents = face_tangents(x, at);
     return Vector3d(tangents[0].cross(tangents[1]));
   };
-  const auto own_normal = [&](Index f)
-  { return normal_of(gather_face(impactor_.dim, impactor_.face(f), query_->x), {0.5, 0.5}); };
+  const auto own_normal = [&](Index f) {
+    return normal_of(gather_face(impactor_.dim, impactor_.face(f), query_->x), {0.5, 0.5});
+  };
   // Mostly none of the node's faces faces the way of this one, which takes no roots to tell.
   const Vector3d normal = normal_of(target_.face(face), xi);
   const auto own = impactor_.faces_of_node(node);

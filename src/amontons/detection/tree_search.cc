@@ -153,9 +153,8 @@ void TreeSearch<dim>::consider(int place, std::uint32_t slot, const Candidate &c
 {
   Sought &sought = block_[place];
   Candidate &found = found_[place];
-  if (sought.is_found() &&
-      (candidate.squared_distance > found.squared_distance ||
-       (candidate.squared_distance == found.squared_distance && id(slot) >= id(sought.slot))))
+  if (sought.is_found() && (candidate.squared_distance > found.squared_distance ||
+                            (candidate.squared_distance == found.squared_distance && id(slot) >= id(sought.slot))))
     return;
   sought.slot = slot;
   sought.bound = std::min(sought.bound, std::sqrt(candidate.squared_distance));
