@@ -58,7 +58,7 @@ std::map<std::string, Kind> kinds_2d()
       {"flat", {[](double s, double) { return Vector3d(-s, 0, 0); }}},
       {"flat-45", {[](double s, double) { return turned_line(s); }}},
       {"thin",
-       {[](double s, double) { return Vector3d(std::cos(turn * s), -std::sin(turn * s), 0); }, 1, true, false, 0.5}},
+       {[](double s, double) { return Vector3d(std::cos(turn * s), std::sin(turn * s), 0); }, 1, true, false, 0.5}},
   };
 }
 

@@ -1,4 +1,4 @@
-"""Neo-Hookean bodies in contact at large strain, against the same law solved by other means: by hand or as an ordinary equation.
+"""Neo-Hookean bodies in contact at large strain, against the same law solved by hand, as an ordinary equation or by other codes.
 
 W = G/2 (J^(-2/3) I1 - 3) + K/2 ((J^2 - 1)/2 - ln J), so the principal first Piola-Kirchhoff stress along a stretch l is
 P = G J^(-2/3) (l - I1/(3 l)) + K/2 (J^2 - 1)/l.
@@ -107,18 +107,54 @@ def tube_rows(bench):
     return rows
 
 
+GETFEM = {0.1: 0.100984, 0.2: 0.277370, 0.3: 0.527819, 0.4: 0.867224}  # depth: force / (E radius), by block_getfem.py, 40 cells
+
+
 def block_rows(bench):
-    """A block pressed by a rigid cylinder to 60 % of its height: computed, and nothing to hold it against."""
-    n = bench.choose(10, 20, 40)
+    """A block pressed by a rigid cylinder to 60 % of its height, against another code."""
+    sizes, curves = bench.choose([10, 20], [20, 40], [20, 40, 80]), []
+    plot = Plot("Neo-Hookean block under a rigid cylinder", "pressed in / height", "force / (E radius)")
+    for n in sizes:
+        made = mesh.Mesh(2)
+        made.add("block", mesh.spaced(0, 2, 2 * n), mesh.spaced(-1, 0, n))
+        run = bench.run("block.yaml", {"mesh.file": made.write(bench.path(f"block-{n}.msh"))})
+        curves.append({round(0.4 * step["time"], 6): -2 * step["contacts"][0]["normal_force"][1] for step in run.increments})
+    plot.add(f"n {n}", list(curves[-1].items()), "line").add("GetFEM, quadratic cells", list(GETFEM.items()), "points")
+    bench.plot("block", plot)
+    return [Row(f"block under a rigid cylinder, {100 * depth:.0f} %, n {n}: force / (E radius)", GETFEM[depth], curves[-1][depth],
+                bench.choose(5e-3, 2e-3), runs=[run], order=order(*(abs(curve[depth] - GETFEM[depth]) for curve in curves[-2:])))
+            for depth in (0.2, 0.4)]
+
+
+DEPTHS = (2.5, 5.0)  # mm
+# Force, N, on a quarter of two hollow half spheres at these depths; README.md has the sources.
+SPHERES = {0.0: {"Puso, Laursen": (0.899, 2.322), "Areias and others": (0.888, 2.241), "FEBio": (0.978, 2.441),
+                 "Abaqus": (1.025, 2.402), "solids4foam": (0.999, 2.300)},
+           0.5: {"Areias and others": (0.932, 2.343), "FEBio": (1.045, 2.586), "Abaqus": (1.032, 2.576), "solids4foam": (1.070, 2.382)}}
+
+
+def sphere_rows(bench):
+    """Two hollow half spheres, one over the other, pressed flat: within what five codes have published."""
+    n, rows = bench.choose(4, 16, 32), []
     made = mesh.Mesh(2)
-    made.add("block", mesh.spaced(0, 2, 2 * n), mesh.spaced(-1, 0, n))
-    run = bench.run("block.yaml", {"mesh.file": made.write(bench.path("block.msh"))})
-    forces = [(step["time"], -2 * step["contacts"][0]["normal_force"][1]) for step in run.increments]
-    bench.plot("block", Plot("Neo-Hookean block under a rigid cylinder", "pressed in / height", "force / (E radius)")
-               .add(f"n {n}", [(0.4 * t, force) for t, force in forces], "line points"))
-    return [Row(f"block under a rigid cylinder, 40 %, n {n}: force / (E radius)", math.nan, forces[-1][1], 1e-2, runs=[run],
-                reason="no published figure known here with its material law, units and source surely enough to be cited")]
+    for name, inside, along in (("inner", 10, 9 * n), ("outer", 12, 10 * n)):
+        made.add(name, mesh.spaced(0, math.pi / 2, along), mesh.spaced(inside, inside + 2, n),
+                 moved=lambda angle, radius: (radius * math.sin(angle), radius * math.cos(angle)))
+    file = made.write(bench.path("spheres.msh"))
+    runs = bench.run_all([("spheres.yaml", {"mesh.file": file, "contact.0.friction.coefficient": mu}) for mu in SPHERES])
+    plot = Plot("Two hollow half spheres pressed flat: force on a quarter", "displacement, mm", "force, N")
+    for (mu, published), run in zip(SPHERES.items(), runs):
+        curve = {round(5 * step["time"], 6): abs(run.contact("top", i)["normal_force"][1]) / 4 for i, step in enumerate(run.increments)}
+        plot.add(f"mu {mu}", list(curve.items()), "line")
+        plot.add(f"published, mu {mu}", [(depth, figures[k]) for k, depth in enumerate(DEPTHS) for figures in published.values()], "points")
+        for k, depth in enumerate(DEPTHS):
+            found = [figures[k] for figures in published.values()]
+            middle, half = (max(found) + min(found)) / 2, (max(found) - min(found)) / 2
+            rows.append(Row(f"hollow spheres, mu {mu}, n {n}: force at {depth} mm, middle of {len(found)} codes", middle, curve[depth],
+                            bench.choose(6e-2, half / middle), runs=[run] if k == 0 else []))
+    bench.plot("spheres", plot)
+    return rows
 
 
 def verify(bench):
-    return bar_rows(bench) + tube_rows(bench) + block_rows(bench)
+    return bar_rows(bench) + tube_rows(bench) + block_rows(bench) + sphere_rows(bench)

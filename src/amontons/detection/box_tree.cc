@@ -92,25 +92,6 @@ typename BoxTree<dim>::FloatPoint BoxTree<dim>::relative(const double *x) const
   return result;
 }
 
-template<int dim>
-bool BoxTree<dim>::measure(std::span<const std::uint32_t> leaves, int n_points, double squared_bound, Group &group,
-                           std::uint32_t *likeliest) const
-{
-  FloatPoint low, high;
-  for (int c = 0; c < dim; ++c)
-  {
-    low[c] = high[c] = group.x[c][0];
-    for (int i = 1; i < n_points; ++i)
-    {
-      low[c] = std::min(low[c], group.x[c][i]);
-      high[c] = std::max(high[c], group.x[c][i]);
-    }
-    std::fill(group.x[c] + n_points, group.x[c] + Group::most_points, low[c]);
-  }
-  return box_kernels<dim>().measure(view(), leaves.data(), static_cast<int>(leaves.size()), low.data(), high.data(),
-                                    rounded_up(squared_bound), group, likeliest);
-}
-
 template class BoxTree<2>;
 template class BoxTree<3>;
 } // namespace amontons

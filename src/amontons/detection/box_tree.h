@@ -23,7 +23,6 @@ public:
 
   using Box = std::array<double, static_cast<std::size_t>(2 * dim)>; ///< lower corner, then upper corner
   using FloatPoint = std::array<float, static_cast<std::size_t>(dim)>;
-  using Group = BoxGroup<dim>;
 
   /// Sets the order: runs of faces that follow one another, along the curve.
   /// @param centres of the runs @param run faces in each, but for the last, which may have fewer
@@ -61,10 +60,20 @@ public:
       return 0;
     return box_kernels<dim>().collect(view(), low.data(), high.data(), rounded_up(squared_bound), leaves, capacity);
   }
-  /// Faces of these leaves near a group of points: see BoxKernels.
-  /// @param n_points of the group; the others are set to the low corner of its box
-  bool measure(std::span<const std::uint32_t> leaves, int n_points, double squared_bound, Group &group,
-               std::uint32_t *likeliest) const;
+  /// list() will be asked for this leaf.
+  void expect_leaf(std::uint32_t leaf) const
+  {
+    for (std::size_t line = 0; line < sizeof(BoxNode<dim>); line += 64)
+      __builtin_prefetch(reinterpret_cast<const char *>(nodes_.data() + leaf) + line);
+  }
+  /// The slots of these leaves' faces that come within the bound of a box. @param low, high its corners, relative()
+  /// @param slots [capacity] @return how many; more than `capacity`: too many
+  int list(std::span<const std::uint32_t> leaves, const FloatPoint &low, const FloatPoint &high, double squared_bound,
+           std::uint32_t *slots, int capacity) const
+  {
+    return box_kernels<dim>().list(view(), leaves.data(), static_cast<int>(leaves.size()), low.data(), high.data(),
+                                   rounded_up(squared_bound), slots, capacity);
+  }
 
   /// Visits the faces whose boxes come within the bound of x, the nearer first.
   /// @param squared_bound read anew after each visit, so that the visitor may shrink it

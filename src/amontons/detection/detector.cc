@@ -37,9 +37,11 @@ std::unique_ptr<Search> make_search(DetectionMethod method, int dim)
 class SurfaceDetector : public Detector
 {
 public:
-  SurfaceDetector(const DetectionOptions &options, const Surface &impactor, const Surface &target)
+  SurfaceDetector(const DetectionOptions &options, const Surface &impactor, const Surface &target,
+                  GivenNumbers given = {})
     : options_(options)
     , impactor_(impactor)
+    , given_(given)
     , target_(target)
     , search_(make_search(options.method, target.dim))
     , pairer_(impactor, target_, *search_)
@@ -79,6 +81,7 @@ private:
 
   DetectionOptions options_;
   const Surface &impactor_;
+  GivenNumbers given_; ///< of the pairs
   Target target_;
   std::unique_ptr<Search> search_;
   Pairer pairer_;
@@ -91,6 +94,7 @@ private:
   Timers timers_;
   // Kept for their memory.
   LargeVector<Index> nodes_; ///< inside the target's grown box
+  std::vector<std::uint32_t> block_begins_;
   Query query_;
 };
 
@@ -111,8 +115,11 @@ void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span
     }
   nodes_.clear();
   nodes_.reserve(pairing_.size());
+  block_begins_.clear();
   for (Index k = 0; k < impactor_.n_nodes(); ++k)
   {
+    if (k % Query::block_size == 0)
+      block_begins_.push_back(static_cast<std::uint32_t>(nodes_.size()));
     const Index node = visiting_order_.empty() ? k : visiting_order_[k];
     const double *x = impactor_x.data() + static_cast<std::ptrdiff_t>(node) * dim;
     bool inside = true;
@@ -124,10 +131,9 @@ void SurfaceDetector::choose_nodes(std::span<const double> impactor_x, std::span
     if (inside)
       nodes_.push_back(node);
     else
-    {
-      pairing_[node] = Pairer::none(NoPairReason::outside_box);
-    }
+      pairing_[given_.node(node)] = Pairer::none(NoPairReason::outside_box);
   }
+  block_begins_.push_back(static_cast<std::uint32_t>(nodes_.size()));
   if (!std::all_of(sums.begin(), sums.end(), [](double sum) { return std::isfinite(sum); }))
     throw NumericalFailure("contact detection: the nodes' positions are not finite");
 }
@@ -152,6 +158,7 @@ const Pairing &SurfaceDetector::detect_by(std::span<const double> impactor_x, st
     exclusions_->move_to(target_x);
   query_ = {impactor_x,
             nodes_,
+            block_begins_,
             distance_.w,
             options_.extension,
             exclusions_.has_value(),
@@ -165,8 +172,14 @@ const Pairing &SurfaceDetector::detect_by(std::span<const double> impactor_x, st
       [this](std::span<const Index> nodes, std::span<const Candidate> found)
       {
         const auto time = timers_.measure("projection");
+        for (const Index node : nodes)
+          __builtin_prefetch(&pairing_[given_.node(node)], 1);
         for (std::size_t i = 0; i < nodes.size(); ++i)
-          pairer_.pair(query_, nodes[i], found[i], pairing_[nodes[i]]);
+        {
+          Pair &pair = pairing_[given_.node(nodes[i])];
+          pairer_.pair(query_, nodes[i], found[i], pair);
+          pair.face = given_.face(pair.face);
+        }
       },
       timers_);
   if (roles_)
@@ -183,14 +196,16 @@ void SurfaceDetector::summarise()
   DetectionReport &report = report_ = DetectionReport{};
   report.method = name_of(options_.method);
   report.distance = distance_.w;
-  report.distance_face = distance_.face;
+  report.distance_face = given_.face(distance_.face);
   report.seconds = timers_.seconds();
   count_pairs(pairing_, roles_.has_value(), report);
   if (roles_)
     summarise_self_contact();
   if (report.deepest_node >= 0)
   {
-    const Vector3d x = point_of(query_.x, impactor_.dim, report.deepest_node);
+    const auto own = std::find(given_.nodes.begin(), given_.nodes.end(), report.deepest_node);
+    const auto place = static_cast<Index>(own - given_.nodes.begin());
+    const Vector3d x = point_of(query_.x, impactor_.dim, given_.nodes.empty() ? report.deepest_node : place);
     report.deepest_point = {x.x(), x.y(), x.z()};
   }
 }
@@ -211,12 +226,12 @@ void SurfaceDetector::summarise_self_contact()
 
 std::unique_ptr<Detector> make_detector(const DetectionOptions &options, const Surface &impactor, const Surface &target)
 {
-  const auto make = [&options](const Surface &own_impactor, const Surface &own_target)
-  { return std::make_unique<SurfaceDetector>(options, own_impactor, own_target); };
+  const auto make = [&options](const Surface &own_impactor, const Surface &own_target, GivenNumbers given)
+  { return std::make_unique<SurfaceDetector>(options, own_impactor, own_target, given); };
   if (options.method == DetectionMethod::exact)
     if (auto renumbered = make_renumbered_detector(impactor, target, make))
       return renumbered;
-  return make(impactor, target);
+  return make(impactor, target, {});
 }
 
 std::unique_ptr<Detector> make_self_detector(const DetectionOptions &options, const Surface &surface,

@@ -27,32 +27,25 @@ Pair Pairer::none(NoPairReason reason)
 // Whether a node seen from inside the face has come through a thin body.
 bool Pairer::is_behind(Index face, LocalPoint xi, double distance, Index node) const
 {
-  return distance > on_surface * query_->w && faces_the_way_of(face_normal(target_.face(face), xi), node);
-}
-
-// Whether the impactor's normal at the node, the mean of its faces' in the current geometry, is less than 60 degrees
-// off.
-bool Pairer::faces_the_way_of(const Vector3d &normal, Index node) const
-{
-  if (impactor_.node_face_offsets.size() != impactor_.node_ids.size() + 1)
+  if (distance <= on_surface * query_->w || impactor_.node_face_offsets.size() != impactor_.node_ids.size() + 1)
+    return false;
+  const auto normal_of = [](const FaceCoordinates &x, LocalPoint at)
+  {
+    const auto tangents = face_tangents(x, at);
+    return Vector3d(tangents[0].cross(tangents[1]));
+  };
+  const auto own_normal = [&](Index f) {
+    return normal_of(gather_face(impactor_.dim, impactor_.face(f), query_->x), {0.5, 0.5});
+  };
+  // Mostly none of the node's faces faces the way of this one, which takes no roots to tell.
+  const Vector3d normal = normal_of(target_.face(face), xi);
+  const auto own = impactor_.faces_of_node(node);
+  if (std::none_of(own.begin(), own.end(), [&](Index f) { return own_normal(f).dot(normal) > 0; }))
     return false;
   Vector3d sum = Vector3d::Zero();
-  bool any = false; // mostly none of them does, which takes no roots to tell
-  for (const bool in_full : {false, true})
-  {
-    for (const Index f : impactor_.faces_of_node(node))
-    {
-      const FaceCoordinates face = gather_face(impactor_.dim, impactor_.face(f), query_->x);
-      const auto tangents = face_tangents(face, {0.5, 0.5});
-      const Vector3d own = tangents[0].cross(tangents[1]);
-      any = any || own.dot(normal) > 0;
-      if (in_full)
-        sum += own.normalized();
-    }
-    if (!any)
-      return false;
-  }
-  return sum.normalized().dot(normal) > same_way;
+  for (const Index f : own)
+    sum += own_normal(f).normalized();
+  return sum.normalized().dot(normal.normalized()) > same_way;
 }
 
 // Self-contact: whether the far side of the node's own wall is that near.

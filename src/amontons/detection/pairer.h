@@ -49,7 +49,6 @@ private:
   bool is_obstructed(const Feature &feature, Index node);
   bool own_wall_within(double distance, Index node);
   bool is_behind(Index face, LocalPoint xi, double distance, Index node) const;
-  bool faces_the_way_of(const Eigen::Vector3d &normal, Index node) const;
 
   const Surface &impactor_;
   const Target &target_;

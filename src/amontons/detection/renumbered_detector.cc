@@ -32,6 +32,8 @@ Renumbered::Renumbered(const Surface &original, std::vector<Index> node_order)
     return; // nodes alone
   surface.face_nodes.reserve(original.face_nodes.size());
   surface.face_offsets.reserve(original.face_offsets.size());
+  surface.face_ids.reserve(original.face_ids.size());
+  faces.reserve(original.face_ids.size());
   std::vector<char> taken(original.face_ids.size(), 0);
   for (const Index node : nodes)
     for (const Index f : original.faces_of_node(node))
@@ -63,8 +65,8 @@ public:
 
   [[nodiscard]] bool is_renumbered() const { return own_.has_value(); }
   [[nodiscard]] const Surface &surface() const { return own_ ? own_->surface : given_; }
-  [[nodiscard]] Index original_node(Index node) const { return own_ && node >= 0 ? own_->nodes[node] : node; }
-  [[nodiscard]] Index original_face(Index face) const { return own_ && face >= 0 ? own_->faces[face] : face; }
+  [[nodiscard]] std::span<const Index> nodes() const { return own_ ? own_->nodes : std::span<const Index>{}; }
+  [[nodiscard]] std::span<const Index> faces() const { return own_ ? own_->faces : std::span<const Index>{}; }
 
   std::span<const double> numbered(std::span<const double> x)
   {
@@ -96,42 +98,32 @@ public:
   }
 
   [[nodiscard]] bool is_needed() const { return impactor_.is_renumbered() || target_.is_renumbered(); }
-  void start(const DetectorMaker &make) { inner_ = make(impactor_.surface(), target_.surface()); }
+  void start(const DetectorMaker &make)
+  {
+    inner_ = make(impactor_.surface(), target_.surface(), {impactor_.nodes(), target_.faces()});
+  }
 
   const Pairing &detect(std::span<const double> impactor_x, std::span<const double> target_x, double reach) override
   {
-    return in_given_order(inner_->detect(impactor_.numbered(impactor_x), target_.numbered(target_x), reach));
+    return released(inner_->detect(impactor_.numbered(impactor_x), target_.numbered(target_x), reach));
   }
   const Pairing &detect_within(std::span<const double> impactor_x, std::span<const double> target_x, double w) override
   {
-    return in_given_order(inner_->detect_within(impactor_.numbered(impactor_x), target_.numbered(target_x), w));
+    return released(inner_->detect_within(impactor_.numbered(impactor_x), target_.numbered(target_x), w));
   }
 
-  [[nodiscard]] DetectionReport report() const override
-  {
-    DetectionReport report = inner_->report();
-    report.distance_face = target_.original_face(report.distance_face);
-    report.deepest_node = impactor_.original_node(report.deepest_node);
-    return report;
-  }
+  [[nodiscard]] DetectionReport report() const override { return inner_->report(); }
 
 private:
-  const Pairing &in_given_order(const Pairing &found)
+  const Pairing &released(const Pairing &found)
   {
-    pairing_.resize(found.size());
-    for (std::size_t i = 0; i < found.size(); ++i)
-    {
-      Pair &pair = pairing_[impactor_.original_node(static_cast<Index>(i))] = found[i];
-      pair.face = target_.original_face(pair.face);
-    }
     impactor_.release();
     target_.release();
-    return pairing_;
+    return found;
   }
 
   Side impactor_, target_;
   std::unique_ptr<Detector> inner_;
-  Pairing pairing_;
 };
 } // namespace
 

@@ -5,6 +5,7 @@
 #include "amontons/detection/target.h"
 #include "amontons/surface/face_batch.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,8 +17,13 @@ namespace amontons
 /// The impactor nodes to look for.
 struct Query
 {
+  static constexpr int block_size = FaceBatch::capacity;
+
   std::span<const double> x;    ///< all nodes, [n_nodes * dim]
   std::span<const Index> nodes; ///< the nodes inside the target's box grown by w
+  /// Where in `nodes` those of each block begin, and the end: of blocks of block_size successive nodes of all, the same
+  /// in every detection whichever of them are inside.
+  std::span<const std::uint32_t> block_begins;
   double w = 0;
   std::optional<double> extension; ///< past the target's ends, where the user gave it
   bool ends_anywhere = false; ///< self-contact: what a node sees may end at any edge, not at the target's ends alone

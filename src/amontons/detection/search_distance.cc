@@ -34,16 +34,14 @@ double triangle_radius2(const Vector3d &x, const Vector3d &y, const Vector3d &z)
   return longer * longer * a / (twice_projection * twice_projection);
 }
 
-// Not less than the covering radius, squared; cheap, and for rectangles right: of a quadrilateral's four quarters each
-// is within reach of its node, as the farthest point of a bilinear patch is one of its corners or nearer; no point of a
-// triangle is farther from all nodes than the longest edge over the root of three.
+// Not less than the covering radius of a segment or quadrilateral, squared; cheap, and for rectangles right: of a
+// quadrilateral's four quarters each is within reach of its node, as the farthest point of a bilinear patch is one of
+// its corners or nearer.
 double radius2_bound(const FaceCoordinates &face)
 {
   const auto &x = face.x;
   if (face.n_nodes == 2)
     return 0.25 * (x[1] - x[0]).squaredNorm();
-  if (face.n_nodes == 3)
-    return std::max({(x[1] - x[0]).squaredNorm(), (x[2] - x[1]).squaredNorm(), (x[0] - x[2]).squaredNorm()}) / 3;
   const Vector3d centre = 0.25 * ((x[0] + x[1]) + (x[2] + x[3]));
   double result = 0;
   for (std::size_t k = 0; k < 4; ++k)
@@ -94,13 +92,18 @@ SearchDistance search_distance(const Target &target, const DetectionOptions &opt
   if (options.distance && !checked)
     return {*options.distance, -1};
   SearchDistance least;
+  double squared = -1; // of the greatest so far; what does not exceed it needs no root
   for (Index f = 0; f < target.surface().n_faces(); ++f)
   {
     const FaceCoordinates face = target.face(f);
-    if (least.face >= 0 && radius2_bound(face) <= least.w * least.w)
+    const auto &x = face.x;
+    if ((face.n_nodes == 3 ? triangle_radius2(x[0], x[1], x[2]) : radius2_bound(face)) <= squared)
       continue;
     if (const double radius = covering_radius(face); radius > least.w || least.face < 0)
+    {
       least = {radius, f};
+      squared = radius * radius;
+    }
   }
   if (!options.distance)
     return {1.01 * std::hypot(least.w, reach), least.face};

@@ -1,5 +1,7 @@
 #include "amontons/detection/tree_search.h"
 
+#include <limits>
+
 namespace amontons
 {
 using Eigen::Vector3d;
@@ -70,18 +72,45 @@ void TreeSearch<dim>::closest(const Target &, const Query &query, const Taker &t
 {
   if (const std::size_t n_nodes = query.x.size() / dim; hints_.size() != n_nodes)
     hints_.assign(n_nodes, no_slot);
-  near_.begin((query.nodes.size() + block_size - 1) / block_size);
+  const std::size_t n_blocks = query.block_begins.size() - 1;
+  near_.begin(n_blocks);
   usual_radius_ = query.w;
   usual_margin_ = 0;
-  for (std::size_t first = 0; first < query.nodes.size(); first += block_size)
+  for (std::size_t block = 0; block < n_blocks; ++block)
   {
-    const auto nodes = query.nodes.subspan(first, std::min<std::size_t>(block_size, query.nodes.size() - first));
+    const auto nodes = block_of(query, block);
+    if (nodes.empty())
+    {
+      near_.forget(block);
+      continue;
+    }
     {
       const auto time = timers.measure("nearest");
-      seek(query, first / block_size, nodes);
+      if (block + 1 < n_blocks)
+        expect(query, block + 1);
+      seek(query, block, nodes);
     }
     take(nodes, std::span<const Candidate>(found_).first(nodes.size()));
   }
+}
+
+template<int dim>
+std::span<const Index> TreeSearch<dim>::block_of(const Query &query, std::size_t block)
+{
+  return query.nodes.subspan(query.block_begins[block], query.block_begins[block + 1] - query.block_begins[block]);
+}
+
+// Fetches ahead what a block begins with.
+template<int dim>
+void TreeSearch<dim>::expect(const Query &query, std::size_t block) const
+{
+  for (const Index node : block_of(query, block))
+  {
+    __builtin_prefetch(query.x.data() + static_cast<std::ptrdiff_t>(node) * dim);
+    __builtin_prefetch(hints_.data() + node);
+  }
+  for (const std::uint32_t leaf : near_.leaves(block))
+    tree_.expect_leaf(leaf);
 }
 
 template<int dim>
@@ -106,7 +135,7 @@ void TreeSearch<dim>::project(Batch &batch)
   for (int i = 0; i < batch.n_pairs; ++i)
   {
     const auto [place, slot] = batch.pairs[i];
-    consider(block_[place], slot, batch.faces.xi(i), batch.faces.squared_distance(i), batch.faces.gap(i));
+    consider(place, slot, {-1, batch.faces.xi(i), batch.faces.squared_distance(i), batch.faces.gap(i)});
   }
   batch.n_pairs = 0;
 }
@@ -120,25 +149,32 @@ void TreeSearch<dim>::project_all()
 }
 
 template<int dim>
-void TreeSearch<dim>::consider(Sought &sought, std::uint32_t slot, LocalPoint xi, double squared_distance, double gap)
+void TreeSearch<dim>::consider(int place, std::uint32_t slot, const Candidate &candidate)
 {
-  if (sought.is_found() && (squared_distance > sought.squared_distance ||
-                            (squared_distance == sought.squared_distance && id(slot) >= id(sought.slot))))
+  Sought &sought = block_[place];
+  Candidate &found = found_[place];
+  if (sought.is_found() && (candidate.squared_distance > found.squared_distance ||
+                            (candidate.squared_distance == found.squared_distance && id(slot) >= id(sought.slot))))
     return;
   sought.slot = slot;
-  sought.xi = xi;
-  sought.squared_distance = squared_distance;
-  sought.gap = gap;
+  sought.bound = std::min(sought.bound, std::sqrt(candidate.squared_distance));
+  found = candidate;
 }
 
 template<int dim>
-double TreeSearch<dim>::first_edge(std::uint32_t slot) const
+double TreeSearch<dim>::shortest_edge(std::uint32_t slot) const
 {
   const auto corners = faces_.corners(slot);
-  double squared_length = 0;
-  for (int c = 0; c < dim; ++c)
-    squared_length += (corners[1][c] - corners[0][c]) * (corners[1][c] - corners[0][c]);
-  return std::sqrt(squared_length);
+  const int n = faces_.n_nodes(slot);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < n; ++k)
+  {
+    double squared_length = 0;
+    for (int c = 0; c < dim; ++c)
+      squared_length += (corners[(k + 1) % n][c] - corners[k][c]) * (corners[(k + 1) % n][c] - corners[k][c]);
+    shortest = std::min(shortest, squared_length);
+  }
+  return std::sqrt(shortest);
 }
 
 template<int dim>

@@ -13,6 +13,7 @@ void TreeSearch<dim>::seek(const Query &query, std::size_t block, std::span<cons
   n_leaves_ = static_cast<int>(near_.leaves(block).size());
   std::copy_n(near_.leaves(block).data(), n_leaves_, leaves_.data());
   is_front_of_block_ = true;
+  near_faces_.clear();
   std::array<int, block_size> pending;
   int n_pending = static_cast<int>(nodes.size());
   for (int place = 0; place < n_pending; ++place)
@@ -23,7 +24,7 @@ void TreeSearch<dim>::seek(const Query &query, std::size_t block, std::span<cons
     seek_once(query, places);
     int n_left = 0;
     for (const int place : places)
-      if (!is_done(block_[place]))
+      if (!is_done(block_[place], query.w))
         pending[n_left++] = place;
     n_pending = n_left;
   }
@@ -35,8 +36,8 @@ void TreeSearch<dim>::seek(const Query &query, std::size_t block, std::span<cons
   {
     const Sought &sought = block_[place];
     hints_[nodes[place]] = sought.slot;
-    const bool is_within = sought.is_found() && sought.squared_distance <= query.w * query.w;
-    found_[place] = {is_within ? tree_.order()[sought.slot] : -1, sought.xi, sought.squared_distance, sought.gap};
+    const bool is_within = sought.is_found() && found_[place].squared_distance <= query.w * query.w;
+    found_[place].face = is_within ? tree_.order()[sought.slot] : -1;
   }
   expect_alike(query, static_cast<int>(nodes.size()));
 }
@@ -49,17 +50,20 @@ void TreeSearch<dim>::start(const Query &query, std::span<const Index> nodes)
   const int n = static_cast<int>(nodes.size());
   for (int place = 0; place < n; ++place)
   {
-    Sought &sought = block_[place] = Sought{};
-    sought.w = query.w;
+    Sought &sought = block_[place];
     const double *x = query.x.data() + static_cast<std::ptrdiff_t>(nodes[place]) * dim;
-    std::copy_n(x, dim, sought.x.begin());
+    for (std::size_t c = 0; c < dim; ++c)
+      sought.x[c] = x[c];
+    sought.bound = query.w;
+    sought.slot = no_slot;
+    sought.is_crowded = sought.is_done = false;
   }
   for (int place = 0; place < n; ++place)
     if (const std::uint32_t hint = hints_[nodes[place]]; hint != no_slot)
       add(query, place, hint);
   project_all();
   for (int place = 0; place < n; ++place) // a face known from before may be far by now
-    block_[place].radius = std::min(usual_radius_, block_[place].bound());
+    block_[place].radius = std::min(usual_radius_, block_[place].bound);
 }
 
 template<int dim>
@@ -74,7 +78,8 @@ void TreeSearch<dim>::expect(std::span<const std::uint32_t> leaves) const
 template<int dim>
 void TreeSearch<dim>::seek_once(const Query &query, std::span<const int> places)
 {
-  if (const Region<dim> needed = region_of(places); !region_.covers(needed))
+  const Region<dim> needed = region_of(places);
+  if (!region_.covers(needed))
   {
     std::array<int, block_size> all;
     for (int place = 0; place < static_cast<int>(nodes_.size()); ++place)
@@ -83,6 +88,8 @@ void TreeSearch<dim>::seek_once(const Query &query, std::span<const int> places)
     block.reach = needed.reach;
     is_front_of_block_ = collect(block, usual_margin_);
   }
+  if (region_.covers(needed))
+    gather(needed);
   for (std::size_t first = 0; first < places.size(); first += group_size)
     seek_group(query, places.subspan(first, std::min<std::size_t>(group_size, places.size() - first)));
   project_all();
@@ -125,39 +132,43 @@ template<int dim>
 void TreeSearch<dim>::seek_group(const Query &query, std::span<const int> places)
 {
   const Region<dim> needed = region_of(places);
-  if (!region_.covers(needed))
+  if (!near_faces_.hold(needed))
   {
-    is_front_of_block_ = false;
-    if (!collect(needed, 0))
+    if (!region_.covers(needed))
+    {
+      is_front_of_block_ = false;
+      if (!collect(needed, 0))
+        return part_crowd(query, places);
+    }
+    if (!gather(needed))
       return part_crowd(query, places);
   }
-  if (!measure(places, needed))
-    return part_crowd(query, places);
+  measure(places, needed);
   guess(query, places);
   look_around(query, places);
 }
 
+template<int dim>
+bool TreeSearch<dim>::gather(const Region<dim> &needed)
+{
+  return near_faces_.gather(tree_, faces_, std::span(leaves_).first(static_cast<std::size_t>(n_leaves_)), needed);
+}
+
 // Holds the nodes against the faces near them. All are seen as far as the farthest of them looks.
 template<int dim>
-bool TreeSearch<dim>::measure(std::span<const int> places, const Region<dim> &needed)
+void TreeSearch<dim>::measure(std::span<const int> places, const Region<dim> &needed)
 {
   bool all_known = true;
-  for (std::size_t i = 0; i < places.size(); ++i)
-  {
-    Sought &sought = block_[places[i]];
-    const auto x = tree_.relative(sought.x.data());
-    for (int c = 0; c < dim; ++c)
-      group_.x[c][i] = x[c];
-    all_known = all_known && sought.is_found() && sought.bound() <= sought.radius;
-  }
-  if (!tree_.measure(std::span(leaves_).first(static_cast<std::size_t>(n_leaves_)), static_cast<int>(places.size()),
-                     needed.reach * needed.reach, group_, all_known ? nullptr : likeliest_.data()))
-    return false;
+  for (const int place : places)
+    all_known = all_known && block_[place].is_found() && block_[place].bound <= block_[place].radius;
+  const double reach = needed.reach - faces_.motion();
+  near_faces_.measure(
+      static_cast<int>(places.size()), [&](int i) -> const auto & { return block_[places[i]].x; }, reach, group_,
+      all_known ? nullptr : likeliest_.data());
   if (all_known)
     likeliest_.fill(no_slot);
   for (const int place : places)
-    block_[place].radius = std::max(block_[place].radius, needed.reach - faces_.motion());
-  return true;
+    block_[place].radius = std::max(block_[place].radius, reach);
 }
 
 // Projects on the likeliest face of each node that has none yet within its radius.
@@ -166,7 +177,7 @@ void TreeSearch<dim>::guess(const Query &query, std::span<const int> places)
 {
   for (std::size_t i = 0; i < places.size(); ++i)
     if (const Sought &sought = block_[places[i]]; likeliest_[i] != no_slot && likeliest_[i] != sought.slot &&
-                                                  (!sought.is_found() || sought.bound() > sought.radius))
+                                                  (!sought.is_found() || sought.bound > sought.radius))
       add(query, places[i], likeliest_[i]);
   project_all();
 }
@@ -182,8 +193,7 @@ void TreeSearch<dim>::look_around(const Query &query, std::span<const int> place
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     const Sought &sought = block_[places[i]];
-    const double reach = std::min(sought.bound(), sought.radius) + faces_.motion();
-    bounds[i] = BoxTree<dim>::rounded_up(reach * reach);
+    bounds[i] = near_faces_.squared_bound(std::min(sought.bound, sought.radius));
     known[i] = sought.slot;
   }
   box_kernels<dim>().select(group_, bounds.data(), known.data(), in_reach_.data());
@@ -194,15 +204,11 @@ void TreeSearch<dim>::look_around(const Query &query, std::span<const int> place
 
 // If not, sets the radius to look in next.
 template<int dim>
-bool TreeSearch<dim>::is_done(Sought &sought)
+bool TreeSearch<dim>::is_done(Sought &sought, double w)
 {
-  const double bound = sought.bound();
-  if (sought.is_done || bound <= sought.radius)
+  if (sought.is_done || sought.bound <= sought.radius)
     return true;
-  if (sought.is_found())
-    sought.radius = bound;
-  else
-    sought.radius = std::min(2 * sought.radius, sought.w);
+  sought.radius = sought.is_found() ? sought.bound : std::min(2 * sought.radius, w);
   return false;
 }
 
@@ -212,10 +218,10 @@ void TreeSearch<dim>::expect_alike(const Query &query, int n_nodes)
 {
   double radius = 1e-3 * query.w;
   for (const Sought &sought : std::span(block_).first(static_cast<std::size_t>(n_nodes)))
-    radius = std::max(radius, 1.2 * sought.bound());
+    radius = std::max(radius, 1.2 * sought.bound);
   usual_radius_ = std::min(radius, query.w);
   if (const std::uint32_t slot = block_[n_nodes - 1].slot; slot != no_slot)
-    usual_margin_ = margin * first_edge(slot);
+    usual_margin_ = margin * shortest_edge(slot);
 }
 
 // Too many faces for all: the radius is taken for too large, then the nodes for too far apart.
@@ -233,7 +239,7 @@ void TreeSearch<dim>::part_crowd(const Query &query, std::span<const int> places
       sought.radius *= sought.is_found() ? 1 : 0.25;
     }
   if (places.size() == 1 && !is_first)
-    return descend(query, block_[places[0]]);
+    return descend(query, places[0]);
   if (is_first)
     return seek_group(query, places);
   const std::size_t half = widest_step(places);
@@ -266,11 +272,12 @@ std::size_t TreeSearch<dim>::widest_step(std::span<const int> places) const
 
 // One by one, the nearest first: where many faces are within the radius.
 template<int dim>
-void TreeSearch<dim>::descend(const Query &query, Sought &sought)
+void TreeSearch<dim>::descend(const Query &query, int place)
 {
-  const auto squared_reach = [&] { return (sought.bound() + faces_.motion()) * (sought.bound() + faces_.motion()); };
+  Sought &sought = block_[place];
+  const auto squared_reach = [&] { return (sought.bound + faces_.motion()) * (sought.bound + faces_.motion()); };
   double bound = squared_reach();
-  const Index node = nodes_[&sought - block_.data()];
+  const Index node = nodes_[place];
   const Eigen::Vector3d x = point_of(query.x, dim, node);
   tree_.visit_within(
       sought.x.data(), bound,
@@ -278,8 +285,8 @@ void TreeSearch<dim>::descend(const Query &query, Sought &sought)
       {
         if (!query.sees(node, tree_.order()[slot]))
           return;
-        const Candidate found = candidate_on(faces_.face(static_cast<std::uint32_t>(slot)), -1, x);
-        consider(sought, static_cast<std::uint32_t>(slot), found.xi, found.squared_distance, found.gap);
+        const auto own = static_cast<std::uint32_t>(slot);
+        consider(place, own, candidate_on(faces_.face(own), -1, x));
         bound = squared_reach();
       },
       [](int, std::size_t) { return true; });

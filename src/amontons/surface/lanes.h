@@ -103,6 +103,22 @@ AMONTONS_INLINE Lanes root(const Lanes &a)
 #endif
 }
 
+AMONTONS_INLINE FloatLanes root(const FloatLanes &a)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return reinterpret_cast<FloatLanes>(_mm512_maskz_sqrt_ps(0xFFFF, reinterpret_cast<const __m512 &>(a)));
+#elif defined(__AVX__)
+  return reinterpret_cast<FloatLanes>(_mm256_sqrt_ps(reinterpret_cast<const __m256 &>(a)));
+#elif defined(__SSE2__)
+  return reinterpret_cast<FloatLanes>(_mm_sqrt_ps(reinterpret_cast<const __m128 &>(a)));
+#else
+  FloatLanes result = a;
+  for (int i = 0; i < n_float_lanes; ++i)
+    result[i] = __builtin_sqrtf(a[i]);
+  return result;
+#endif
+}
+
 template<typename Real>
 AMONTONS_INLINE Real least(const Real &a, const Real &b)
 {
