@@ -117,46 +117,6 @@ protected:
   void expect_same_step() { EXPECT_LT(forms_->difference(problem_.random_rhs(), 1e-13), kind().accuracy); }
   [[nodiscard]] std::size_t n() const { return problem_.patterns.size(); }
 
-  enum class Side
-  {
-    upper,
-    lower,
-    rigid
-  };
-  [[nodiscard]] std::vector<Index> nodes_of(Side side) const
-  {
-    std::vector<Index> out;
-    for (Index node = 0; node < problem_.n_nodes(); ++node)
-      if (side == Side::rigid   ? problem_.is_rigid(node)
-          : side == Side::lower ? problem_.of_lower(node) && !problem_.is_rigid(node) && problem_.height(node) > 0.9
-                                : !problem_.of_lower(node) && problem_.height(node) < 1.2)
-        out.push_back(node);
-    return out;
-  }
-  /// The node and a face of `nodes` from `first` on.
-  void add_pair(Index impactor, const std::vector<Index> &nodes, std::size_t first)
-  {
-    std::vector<Index> all{impactor};
-    for (int k = 0; k < problem_.face_size(); ++k)
-      all.push_back(nodes[(first + k) % nodes.size()]);
-    problem_.add_contact(all);
-  }
-  /// Impactor nodes that are targets too, in chains and in a circle; a node in two contacts; the rigid body on either
-  /// side; a node with held components in axisymmetry (the first ones).
-  void entangle()
-  {
-    const std::vector<Index> upper = nodes_of(Side::upper), lower = nodes_of(Side::lower),
-                             rigid = nodes_of(Side::rigid);
-    problem_.patterns.clear();
-    add_pair(upper[0], lower, 1);
-    add_pair(lower[1], upper, 2);
-    add_pair(upper[2], lower, 2);
-    add_pair(lower[2], upper, 0);
-    add_pair(upper[1], rigid, 0);
-    add_pair(upper[1], lower, 0);
-    add_pair(rigid[0], upper, 2);
-  }
-
   LatticeProblem problem_{std::get<1>(GetParam())};
   std::unique_ptr<test::DividedForm> forms_;
 };
@@ -201,7 +161,7 @@ TEST_P(DividedForms, WithoutFrictionItIsSymmetric)
 
 TEST_P(DividedForms, ImpactorsThatAreTargetsAndRigidOnes)
 {
-  entangle();
+  problem_.entangle();
   start();
   for (int round = 0; round < 4; ++round)
   {

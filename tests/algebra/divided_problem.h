@@ -32,14 +32,19 @@ enum class Deal
 {
   even,      ///< as many to each, neighbours together
   in_turn,   ///< neighbours apart
+  apart,     ///< neighbours apart, and no process with subdomains of both halves, where there are several
   last_only, ///< all to the last process
 };
 
 inline Rank rank_of_subdomain(Deal deal, std::size_t subdomain, std::size_t n_subdomains, int n_processes)
 {
-  return static_cast<Rank>(deal == Deal::even      ? subdomain * n_processes / n_subdomains
-                           : deal == Deal::in_turn ? subdomain % n_processes
-                                                   : n_processes - 1);
+  const std::size_t first_half = n_processes / 2, second_half = n_processes - first_half;
+  return static_cast<Rank>(deal == Deal::even              ? subdomain * n_processes / n_subdomains
+                           : deal == Deal::in_turn         ? subdomain % n_processes
+                           : deal == Deal::last_only       ? n_processes - 1
+                           : 2 * subdomain >= n_subdomains ? first_half + subdomain % second_half
+                           : first_half > 0                ? subdomain % first_half
+                                                           : 0);
 }
 
 /// Collective. Whoever has a subdomain with a node prefers to own it and its unknowns.

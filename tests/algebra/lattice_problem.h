@@ -75,6 +75,22 @@ public:
     patterns.push_back(pattern);
   }
 
+  /// Other contacts: impactor nodes that are targets too, in chains and in a circle; a node in two contacts; the rigid
+  /// body on either side; a node with held components in axisymmetry (the first ones).
+  void entangle()
+  {
+    const std::vector<Index> upper = nodes_of(Side::upper), lower = nodes_of(Side::lower),
+                             rigid = nodes_of(Side::rigid);
+    patterns.clear();
+    add_pair(upper[0], lower, 1);
+    add_pair(lower[1], upper, 2);
+    add_pair(upper[2], lower, 2);
+    add_pair(lower[2], upper, 0);
+    add_pair(upper[1], rigid, 0);
+    add_pair(upper[1], lower, 0);
+    add_pair(rigid[0], upper, 2);
+  }
+
   /// Numbers the unknowns; after the contacts are there. @param held whether the upper lattice is held at its top
   void make_layout(bool held = true)
   {
@@ -149,6 +165,31 @@ public:
 
 private:
   using Bars = std::vector<std::pair<Index, Index>>;
+
+  enum class Side
+  {
+    upper,
+    lower,
+    rigid
+  };
+  [[nodiscard]] std::vector<Index> nodes_of(Side side) const
+  {
+    std::vector<Index> out;
+    for (Index node = 0; node < n_nodes(); ++node)
+      if (side == Side::rigid   ? is_rigid(node)
+          : side == Side::lower ? of_lower(node) && !is_rigid(node) && height(node) > 0.9
+                                : !of_lower(node) && height(node) < 1.2)
+        out.push_back(node);
+    return out;
+  }
+  /// The node and a face of `nodes` from `first` on.
+  void add_pair(Index impactor, const std::vector<Index> &nodes, std::size_t first)
+  {
+    std::vector<Index> all{impactor};
+    for (int k = 0; k < face_size(); ++k)
+      all.push_back(nodes[(first + k) % nodes.size()]);
+    add_contact(all);
+  }
 
   void add_lattice(double low, int n)
   {

@@ -139,6 +139,17 @@ void FetiKernel::restrict_row(std::span<const FetiRows::Entry> row, std::vector<
     }
 }
 
+std::vector<Index> FetiKernel::owners_of(std::span<const FetiRows::Entry> row) const
+{
+  std::vector<Index> out;
+  for (const auto &[column, coefficient] : row)
+    if (owner_[column] >= 0)
+      out.push_back(owner_[column]);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 Index FetiKernel::owner_of_unknown(Index unknown) const
 {
   return static_cast<Index>(std::upper_bound(first_.begin(), first_.end(), unknown) - first_.begin()) - 1;

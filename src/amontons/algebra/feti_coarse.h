@@ -34,6 +34,8 @@ public:
   void restrict(std::span<const double> v, std::span<double> alpha) const;
   /// The row b R of G for a row b of B. @param out overwritten, by coarse unknowns ascending
   void restrict_row(std::span<const FetiRows::Entry> row, std::vector<FetiRows::Entry> &out) const;
+  /// Of these columns, each once, ascending.
+  [[nodiscard]] std::vector<Index> owners_of(std::span<const FetiRows::Entry> row) const;
   /// The owner of a coarse unknown.
   [[nodiscard]] Index owner_of_unknown(Index unknown) const;
 

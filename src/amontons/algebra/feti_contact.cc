@@ -36,7 +36,7 @@ void FetiContact::set(FetiContactRows given, std::span<const double> inverse_sti
   symmetric_ = processes_.true_on_all(given.symmetric);
   springs_ = given.springs;
   scale_rows(given, inverse_stiffness, mean);
-  const std::array<const FetiRows *, 2> whole{&given.rows, &given.forces};
+  const Whole whole{&given.rows, &given.forces};
   take_own(whole);
   exchange(whole);
   for (int k = 0; k < n_sides(); ++k)
@@ -62,7 +62,7 @@ void FetiContact::scale_rows(FetiContactRows &given, std::span<const double> inv
   }
 }
 
-void FetiContact::take_own(const std::array<const FetiRows *, 2> &whole)
+void FetiContact::take_own(const Whole &whole)
 {
   std::vector<FetiRows::Entry> entries;
   for (int k = 0; k < n_sides(); ++k)
@@ -82,59 +82,69 @@ void FetiContact::take_own(const std::array<const FetiRows *, 2> &whole)
   }
 }
 
-/// To each process the own rows that touch its subdomains, and from each those of its that touch own ones.
-void FetiContact::exchange(const std::array<const FetiRows *, 2> &whole)
+/// To each process the own rows that touch its subdomains: their number here, then for each side what it is to know.
+std::vector<Message> FetiContact::messages_to_others(const Whole &whole) const
 {
-  std::vector<GlobalIndex> ids; // with them who looks after a row's copies is who gives it
-  const int n_processes = processes_.n_processes();
+  std::map<Rank, ByteWriter> writers;
   for (Index row = 0; row < n_own(); ++row)
-    ids.push_back(GlobalIndex(row) * n_processes + processes_.rank());
-  if (processes_.is_distributed())
   {
-    std::map<Rank, ByteWriter> writers;
-    for (Index row = 0; row < n_own(); ++row)
-    {
-      std::map<Rank, std::array<std::vector<ForeignEntry>, 2>> foreign;
-      for (int k = 0; k < n_sides(); ++k)
-        for (const auto &[column, coefficient] : (*whole[k])[row])
-          if (!is_here(column))
-          {
-            const FetiInterface::Place place = interface_.place(column);
-            foreign[interface_.copies().rank_of(place.subdomain)][k].push_back({place, coefficient});
-          }
-      for (const auto &[rank, entries] : foreign)
-      {
-        writers[rank].add(row);
-        for (int k = 0; k < n_sides(); ++k)
+    std::map<Rank, std::array<std::vector<ForeignEntry>, 2>> foreign;
+    for (int k = 0; k < n_sides(); ++k)
+      for (const auto &[column, coefficient] : (*whole[k])[row])
+        if (!is_here(column))
         {
-          writers[rank].add_array(entries[k]);
-          writers[rank].add_array(packed(sides_[k].motions[row]));
+          const FetiInterface::Place place = interface_.place(column);
+          foreign[interface_.copies().rank_of(place.subdomain)][k].push_back({place, coefficient});
         }
+    for (const auto &[rank, entries] : foreign)
+    {
+      writers[rank].add(row);
+      for (int k = 0; k < n_sides(); ++k)
+      {
+        writers[rank].add_array(entries[k]);
+        writers[rank].add_array(packed(sides_[k].motions[row]));
       }
     }
-    std::vector<Message> out;
-    for (auto &[rank, writer] : writers)
-      out.push_back({rank, writer.take()});
-    for (const Message &message : processes_.messages()->exchange(feti_setup_phase, std::move(out)))
+  }
+  std::vector<Message> out;
+  for (auto &[rank, writer] : writers)
+    out.push_back({rank, writer.take()});
+  return out;
+}
+
+void FetiContact::take_row_of_other(ByteReader &reader)
+{
+  std::vector<FetiRows::Entry> row;
+  for (int k = 0; k < n_sides(); ++k)
+  {
+    row.clear();
+    for (const ForeignEntry &entry : reader.get_array<ForeignEntry>())
+      row.emplace_back(interface_.own_column(entry.place), entry.coefficient);
+    sides_[k].rows.push_back(row);
+    row.clear();
+    for (const MotionEntry &entry : reader.get_array<MotionEntry>())
+      row.emplace_back(entry.unknown, entry.coefficient);
+    sides_[k].motions.push_back(row);
+  }
+}
+
+void FetiContact::exchange(const Whole &whole)
+{
+  // So numbered, the copies of a row are looked after by the process that gives it.
+  const auto id = [&](Index row, Rank rank) { return GlobalIndex(row) * processes_.n_processes() + rank; };
+  std::vector<GlobalIndex> ids;
+  for (Index row = 0; row < n_own(); ++row)
+    ids.push_back(id(row, processes_.rank()));
+  if (processes_.is_distributed())
+    for (const Message &message : processes_.messages()->exchange(feti_setup_phase, messages_to_others(whole)))
     {
       ByteReader reader(message.bytes);
       while (!reader.is_at_end())
       {
-        ids.push_back(GlobalIndex(reader.get<Index>()) * n_processes + message.rank);
-        for (int k = 0; k < n_sides(); ++k)
-        {
-          std::vector<FetiRows::Entry> entries;
-          for (const ForeignEntry &entry : reader.get_array<ForeignEntry>())
-            entries.emplace_back(interface_.own_column(entry.place), entry.coefficient);
-          sides_[k].rows.push_back(entries);
-          entries.clear();
-          for (const MotionEntry &entry : reader.get_array<MotionEntry>())
-            entries.emplace_back(entry.unknown, entry.coefficient);
-          sides_[k].motions.push_back(entries);
-        }
+        ids.push_back(id(reader.get<Index>(), message.rank));
+        take_row_of_other(reader);
       }
     }
-  }
   std::vector<char> is_own(ids.size(), 0);
   std::fill_n(is_own.begin(), n_own(), 1);
   sharing_ = Sharing(processes_.messages(), feti_setup_phase, ids, is_own).counted_as(feti_contact_phase);

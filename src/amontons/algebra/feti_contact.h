@@ -12,7 +12,7 @@ struct FetiContactRows
 {
   FetiRows rows, forces;        ///< of B and of B_f; columns of FetiInterface, then one column per spring
   std::vector<double> springs;  ///< stiffness of each spring, of either sign
-  std::vector<Index> impactors; ///< of each row the node that no other node's row is to have, or -1
+  std::vector<Index> impactors; ///< node of each row, or -1
   bool symmetric = true;        ///< forces equal rows
 
   friend bool operator==(const FetiContactRows &, const FetiContactRows &) = default;
@@ -66,12 +66,14 @@ private:
     FetiRows rows, motions;
     FetiScaling scaling;
   };
-  struct Passage;
   [[nodiscard]] Side &side(bool forces) { return sides_[forces && !symmetric_]; }
   [[nodiscard]] const Side &side(bool forces) const { return sides_[forces && !symmetric_]; }
   void scale_rows(FetiContactRows &given, std::span<const double> inverse_stiffness, double mean);
-  void take_own(const std::array<const FetiRows *, 2> &whole);
-  void exchange(const std::array<const FetiRows *, 2> &whole);
+  using Whole = std::array<const FetiRows *, 2>; ///< own rows of each side, over all their columns
+  void take_own(const Whole &whole);
+  [[nodiscard]] std::vector<Message> messages_to_others(const Whole &whole) const;
+  void take_row_of_other(ByteReader &reader);
+  void exchange(const Whole &whole);
   [[nodiscard]] double least_own_share(const FetiRows &rows, const FetiContactRows &given,
                                        std::span<const double> inverse_stiffness) const;
   [[nodiscard]] bool is_here(Index column) const

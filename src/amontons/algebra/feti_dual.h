@@ -55,8 +55,8 @@ public:
   /// @param contact of this process @param modes each over the displacement unknowns
   void set_rows(FetiContactRows contact, const std::vector<std::vector<double>> &modes);
 
-  /// @param forces [n_displacement_unknowns] @param gaps of the contact rows of this process @param motions of the held
-  /// modes
+  /// @param forces [n_displacement_unknowns] @param gaps of the contact rows of this process
+  /// @param motions of the held modes
   /// @param reduction the residual forces' norm over what it is at the start, where the iteration may stop
   /// @param target or the norm itself
   [[nodiscard]] FetiStep solve(std::span<const double> forces, std::span<const double> gaps,
@@ -71,6 +71,9 @@ public:
 private:
   void factorize_subdomains();
   void build_kernel();
+  [[nodiscard]] std::set<std::vector<Index>>
+  contact_couplings(const std::vector<std::span<const Index>> &nodal_sets,
+                    const std::vector<std::span<const Index>> &rigid_sets) const;
   void find_contact_entries(const std::set<std::vector<Index>> &couplings);
   [[nodiscard]] std::vector<double> gram(bool forces) const;
   void factorize_coarse(Index n_modes);

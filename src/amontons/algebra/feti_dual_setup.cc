@@ -78,42 +78,16 @@ void FetiDual::build_kernel()
 void FetiDual::set_couplings(const std::vector<std::span<const Index>> &nodal_sets,
                              const std::vector<std::span<const Index>> &rigid_sets)
 {
+  const std::set<std::vector<Index>> couplings = contact_couplings(nodal_sets, rigid_sets);
   coarse_.emplace(session_, kernel_);
   coarse_forces_.reset();
-  std::set<std::vector<Index>> couplings; // of contact, by owner
-  std::vector<Index> owners;
-  const auto owners_of = [&](auto &&entries)
-  {
-    owners.clear();
-    for (const auto &[column, coefficient] : entries)
-      if (const Index owner = kernel_.owner(column); owner >= 0)
-        owners.push_back(owner);
-    std::sort(owners.begin(), owners.end());
-    owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
-    return owners;
-  };
-  std::vector<FetiRows::Entry> entries;
-  for (const std::span<const Index> nodal : nodal_sets)
-  {
-    entries.clear();
-    for (const Index i : nodal)
-      interface_->append(i, 1, entries);
-    couplings.insert(owners_of(entries));
-  }
-  for (const std::span<const Index> unknowns : rigid_sets)
-  {
-    entries.clear();
-    for (const Index unknown : unknowns)
-      entries.emplace_back(interface_->rigid_column(unknown), 1);
-    couplings.insert(owners_of(entries));
-  }
   coarse_->set_pattern(
       [&](const std::function<void(std::span<const Index>)> &take)
       {
         for (Index row = 0; row < glue_.size(); ++row)
-          take(owners_of(glue_[row]));
-        for (const std::vector<Index> &coupled : couplings)
-          take(coupled);
+          take(kernel_.owners_of(glue_[row]));
+        for (const std::vector<Index> &owners : couplings)
+          take(owners);
       },
       setup_processes_);
   find_contact_entries(couplings);
@@ -128,7 +102,30 @@ void FetiDual::set_couplings(const std::vector<std::span<const Index>> &nodal_se
   forget_given();
 }
 
-/// @param couplings owners that contact rows of this process may couple
+/// Sets of owners that contact rows of this process may couple.
+std::set<std::vector<Index>> FetiDual::contact_couplings(const std::vector<std::span<const Index>> &nodal_sets,
+                                                         const std::vector<std::span<const Index>> &rigid_sets) const
+{
+  std::set<std::vector<Index>> out;
+  std::vector<FetiRows::Entry> entries;
+  for (const std::span<const Index> nodal : nodal_sets)
+  {
+    entries.clear();
+    for (const Index i : nodal)
+      interface_->append(i, 1, entries);
+    out.insert(kernel_.owners_of(entries));
+  }
+  for (const std::span<const Index> unknowns : rigid_sets)
+  {
+    entries.clear();
+    for (const Index unknown : unknowns)
+      entries.emplace_back(interface_->rigid_column(unknown), 1);
+    out.insert(kernel_.owners_of(entries));
+  }
+  return out;
+}
+
+/// Entries of G^T G that contact rows of any process may change.
 void FetiDual::find_contact_entries(const std::set<std::vector<Index>> &couplings)
 {
   std::vector<double> touched = coarse_->zeros();
