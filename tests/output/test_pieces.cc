@@ -4,8 +4,10 @@
 #include "vtu_reader.h"
 
 #include "amontons/base/error.h"
+#include "amontons/output/contact_table.h"
 #include "amontons/output/pictures.h"
 #include "amontons/output/record.h"
+#include "amontons/solution/contact_interface.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <sstream>
 
 namespace amontons
 {
@@ -47,6 +50,7 @@ struct Part
 {
   Mesh mesh;
   Sharing nodes;
+  Surface top; ///< of the squares, an impactor
   SolutionState state;
 
   explicit Part(const Communicator &all);
@@ -54,6 +58,7 @@ struct Part
 
 private:
   void add_nodes(const Communicator &all);
+  void add_contact();
   std::map<GlobalIndex, Index> position_;
 };
 
@@ -99,6 +104,57 @@ Part::Part(const Communicator &all)
   nodes = Sharing(all.size() > 1 ? std::make_shared<MessageExchange>(all) : nullptr, "nodes", mesh.node_ids);
   state.mesh = &mesh;
   state.nodes = &nodes;
+  add_contact();
+}
+
+/// Pressures by the nodes' ids, which owners know.
+void Part::add_contact()
+{
+  std::vector<GlobalIndex> ids = mesh.node_ids;
+  std::sort(ids.begin(), ids.end());
+  const auto add = [&](bool own)
+  {
+    for (const GlobalIndex id : ids)
+      if (id < 2 * (n_cells + 1) && id % 2 == 1 && nodes.is_own(position_[id]) == own)
+      {
+        top.node_ids.push_back(id);
+        for (const double x : place(id))
+          top.reference.push_back(x);
+      }
+  };
+  add(true);
+  ContactResult contact;
+  contact.n_own = contact.n_nodes = top.n_nodes();
+  add(false);
+  for (const GlobalIndex cell : mesh.cell_ids)
+  {
+    for (const GlobalIndex id : {2 * cell + 3, 2 * cell + 1})
+      top.face_nodes.push_back(
+          static_cast<Index>(std::find(top.node_ids.begin(), top.node_ids.end(), id) - top.node_ids.begin()));
+    top.face_offsets.push_back(static_cast<Index>(top.face_nodes.size()));
+    top.face_ids.push_back(cell);
+  }
+  contact.name = "top";
+  contact.impactor = &top;
+  for (const GlobalIndex id : top.node_ids)
+    contact.nodes.push_back(position_[id]);
+  const std::size_t n = top.node_ids.size();
+  for (std::vector<double> *values : {&contact.gap, &contact.pressure, &contact.traction, &contact.slip, &contact.area})
+    values->assign(n, 0);
+  contact.force.assign(2 * n, 0);
+  contact.status.assign(n, ContactStatus::open);
+  for (Index i = 0; i < contact.n_own; ++i)
+  {
+    contact.pressure[i] = static_cast<double>(top.node_ids[i]);
+    contact.force[2 * i + 1] = -contact.pressure[i];
+    contact.status[i] = ContactStatus::slip;
+    contact.n_active += 1;
+    contact.max_pressure = std::max(contact.max_pressure, contact.pressure[i]);
+  }
+  std::vector<char> is_own(n, 0);
+  std::fill_n(is_own.begin(), contact.n_own, 1);
+  complete(contact, Sharing(nodes.messages(), "nodes", top.node_ids, is_own));
+  state.contacts = {contact};
 }
 
 /// The sources of a .pvtu; a .vtu is its own.
@@ -113,10 +169,10 @@ std::vector<std::string> pieces_of(const std::string &file, const std::string &t
   return out;
 }
 
-/// The file of the bodies that the series lists.
-std::string listed_file(const std::filesystem::path &folder)
+/// The file that a series lists.
+std::string listed_file(const std::filesystem::path &folder, const std::string &series = "solution")
 {
-  const std::string pvd = content_of(folder / "solution.pvd");
+  const std::string pvd = content_of(folder / (series + ".pvd"));
   const std::size_t begin = pvd.find("file=\"") + 6;
   return pvd.substr(begin, pvd.find('"', begin) - begin);
 }
@@ -181,6 +237,52 @@ TEST_F(Pieces, TogetherHoldEveryCellOnceAndEveryNode)
   EXPECT_EQ(nodes.size(), static_cast<std::size_t>(n_nodes));
 }
 
+TEST_F(Pieces, OfAContactHoldEveryFaceOnceWithWhatOwnersKnow)
+{
+  write();
+  const std::string file = listed_file(shared_.path(), "contact_top");
+  std::vector<GlobalIndex> faces;
+  for (const std::string &piece : pieces_of(file, content_of(shared_.path() / file)))
+  {
+    const VtuReader vtu(content_of(shared_.path() / piece));
+    const auto tags = vtu.integers<GlobalIndex>("node"), status = vtu.integers<GlobalIndex>("status");
+    const auto pressure = vtu.numbers("pressure"), force = vtu.numbers("force");
+    for (std::size_t i = 0; i < tags.size(); ++i)
+    {
+      EXPECT_EQ(pressure[i], static_cast<double>(tags[i] - first_tag));
+      EXPECT_EQ(force[3 * i + 1], -pressure[i]);
+      EXPECT_EQ(status[i], static_cast<GlobalIndex>(ContactStatus::slip));
+    }
+    const auto connectivity = vtu.integers<GlobalIndex>("connectivity");
+    for (std::size_t k = 0; k < connectivity.size(); k += 2)
+      faces.push_back((tags.at(connectivity[k]) - first_tag) / 2 - 1);
+  }
+  std::sort(faces.begin(), faces.end());
+  ASSERT_EQ(faces.size(), static_cast<std::size_t>(n_cells));
+  for (GlobalIndex face = 0; face < n_cells; ++face)
+    EXPECT_EQ(faces[face], face);
+}
+
+TEST_F(Pieces, ATableHasEachNodeOnceInTheOrderOfTheMesh)
+{
+  const ContactResult &contact = part_.state.contacts[0];
+  EXPECT_EQ(contact.n_nodes, n_cells + 1);
+  EXPECT_EQ(contact.n_active, n_cells + 1);
+  EXPECT_EQ(contact.max_pressure, 2 * n_cells + 1);
+  const std::string table = contact_table(contact, part_.state);
+  if (!all_.is_root())
+    return;
+  std::istringstream lines(table);
+  std::string line;
+  std::getline(lines, line);
+  for (GlobalIndex id = 1; id < 2 * (n_cells + 1); id += 2)
+  {
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_TRUE(line.starts_with(std::to_string(id + first_tag) + "," + std::to_string(id / 2) + ",1,")) << line;
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+}
+
 TEST_F(Pieces, LeaveOutNodesWithoutACellOfTheirs)
 {
   const VtuReader vtu(body_grid(part_.state, {}, {}).text());
@@ -242,6 +344,7 @@ TEST_F(Pieces, RecordComparesTheProcesses)
   }
   const Json &processes = totals["processes"];
   EXPECT_EQ(processes["n_cells"]["sum"], n_cells);
+  EXPECT_EQ(processes["n_contact_nodes"]["sum"], n_cells + 1);
   EXPECT_EQ(processes["n_cells"]["max"], (n_cells + all_.size() - 1) / all_.size());
   EXPECT_EQ(processes["n_cells"]["min"], n_cells / all_.size());
   EXPECT_EQ(processes["peak_rss_mb"]["max"], totals["peak_rss_mb"]);

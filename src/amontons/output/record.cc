@@ -82,8 +82,12 @@ using Numbers = std::vector<std::pair<std::string, double>>;
 
 Numbers numbers_of_process(const SolutionState &state, const Timers &timers)
 {
+  double n_contact_nodes = 0;
+  for (const ContactResult &contact : state.contacts)
+    n_contact_nodes += contact.n_own;
   Numbers out{{"/n_cells", state.mesh->cells.size()},
               {"/n_nodes", state.mesh->n_nodes()},
+              {"/n_contact_nodes", n_contact_nodes},
               {"/peak_rss_mb", peak_rss_mb()},
               {"/cpu_s", cpu_s()}};
   for (const char *phase : phases)
