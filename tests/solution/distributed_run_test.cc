@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <numbers>
+
 namespace amontons::test
 {
 namespace
@@ -167,10 +169,9 @@ TEST_P(DistributedRun, PlasticBlockUnderAShape)
   expect_as_alone(problem);
 }
 
-TEST_P(DistributedRun, FiniteStrainFromFaceToFace)
+/// Pressed, then pushed along over two faces of the lower one.
+Problem sliding_block()
 {
-  if (GetParam().linear == LinearSolverType::feti)
-    GTEST_SKIP() << "feti is for small strain";
   Blocks mesh(2);
   mesh.add("lower", {-1, -1, 0}, {3, 1, 0}, {15, 5, 0});
   mesh.add("upper", {-0.5, 0.01, 0}, {1, 0.7, 0}, {6, 4, 0});
@@ -181,6 +182,14 @@ TEST_P(DistributedRun, FiniteStrainFromFaceToFace)
   problem.on("upper_top").displacement = {{0, expression("0.4 * t")}, {1, expression("-0.1 * min(4*t, 1)")}};
   problem.contact("upper_bottom", "lower_top", 0.3);
   problem.options.loading.increments = 8;
+  return problem;
+}
+
+TEST_P(DistributedRun, FiniteStrainFromFaceToFace)
+{
+  if (GetParam().linear == LinearSolverType::feti)
+    GTEST_SKIP() << "feti is for small strain";
+  Problem problem = sliding_block();
   expect_as_alone(problem);
 }
 
@@ -201,6 +210,62 @@ INSTANTIATE_TEST_SUITE_P(Solvers, DistributedRun,
                                          Solver{"direct", LinearSolverType::direct, MultiplierForm::condensed},
                                          Solver{"amg", LinearSolverType::amg, MultiplierForm::condensed},
                                          Solver{"feti", LinearSolverType::feti, MultiplierForm::condensed}),
+                         [](const auto &info) { return std::string(info.param.name); });
+
+/// Kinds of contact that bring more to a process than the pairs of its own nodes.
+class DistributedContact : public DistributedRun
+{
+};
+
+TEST_P(DistributedContact, SmoothedNormalsFoundByTheHub)
+{
+  Problem problem = sliding_block();
+  problem.options.contact[0].normals = TargetNormals::smoothed;
+  problem.options.exchange.mode = ExchangeMode::gathered;
+  expect_as_alone(problem);
+}
+
+TEST_P(DistributedContact, SurfaceToSurface)
+{
+  Problem problem = dragged_block();
+  problem.options.contact[0].discretization = Discretization::mortar;
+  expect_as_alone(problem);
+}
+
+TEST_P(DistributedContact, Tied)
+{
+  Problem problem = dragged_block();
+  problem.options.contact[0].tied = true;
+  expect_as_alone(problem);
+}
+
+/// A strip bent to a hairpin, its ends pressed together and pushed along each other.
+TEST_P(DistributedContact, ASurfaceThatTouchesItself)
+{
+  constexpr double radius = 0.08, thickness = 0.1, arc = std::numbers::pi * radius, length = 2.043 + arc;
+  Blocks mesh(2);
+  mesh.add("strip", {0, 0, 0}, {1, 1, 0}, {64, 2, 0},
+           [](const Point &x)
+           {
+             const double s = x[0] * length, offset = (x[1] - 0.5) * thickness, phi = (s - 1) / radius;
+             if (s <= 1)
+               return Point(s, offset, 0);
+             if (s >= 1 + arc)
+               return Point(2 + arc - s, 2 * radius - offset, 0);
+             return Point(1 + (radius - offset) * std::sin(phi), radius - (radius - offset) * std::cos(phi), 0);
+           });
+  Problem problem(mesh, Kinematics::plane_strain, Strain::finite);
+  problem.elastic("strip", 100, 0.3);
+  problem.contact("strip_top", "strip_top", 0.2);
+  problem.on("strip_left").fix = {0, 1};
+  problem.on("strip_right").displacement = {{0, expression("0.004*t")}, {1, expression("-0.072*t")}};
+  problem.options.loading.increments = 5;
+  expect_as_alone(problem);
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, DistributedContact,
+                         testing::Values(Solver{"coupled", LinearSolverType::direct, MultiplierForm::coupled},
+                                         Solver{"direct", LinearSolverType::direct, MultiplierForm::condensed}),
                          [](const auto &info) { return std::string(info.param.name); });
 } // namespace
 } // namespace amontons::test
