@@ -1,5 +1,5 @@
 // Shallow ironing (Fischer and Wriggers): an indenter with a round lower face is pressed into a block and drawn along.
-// Its lowest point touches the block's upper face y = 0 at the start.
+// The block's upper face is y = 0.
 
 DefineConstant[
   n_block = {120, Name "n_block"},          // cells along the block; a quarter of it in height
@@ -9,9 +9,10 @@ DefineConstant[
 length = 12;
 height = 4;
 indenter_width = 1.2;
-indenter_height = 0.95;
+indenter_height = 1.2; // above its lowest point
 radius = 0.75; // of the indenter's lower face
 start = 0.2;   // of the indenter, from the end of the block
+gap = 0.2;     // between the indenter's lowest point and the block
 
 Point(1) = {0, -height, 0};
 Point(2) = {length, -height, 0};
@@ -27,12 +28,12 @@ Curve Loop(1) = {1, 2, 3, 4};
 Plane Surface(1) = {1};
 
 middle = start + indenter_width / 2;
-corner = radius - Sqrt(radius^2 - (indenter_width / 2)^2); // height of the round face's ends
+corner = gap + radius - Sqrt(radius^2 - (indenter_width / 2)^2); // height of the round face's ends
 Point(11) = {start, corner, 0};
 Point(12) = {start + indenter_width, corner, 0};
-Point(13) = {start + indenter_width, indenter_height, 0};
-Point(14) = {start, indenter_height, 0};
-Point(15) = {middle, radius, 0}; // centre of the round face
+Point(13) = {start + indenter_width, gap + indenter_height, 0};
+Point(14) = {start, gap + indenter_height, 0};
+Point(15) = {middle, gap + radius, 0}; // centre of the round face
 Circle(11) = {11, 15, 12};
 Line(12) = {12, 13};
 Line(13) = {13, 14};

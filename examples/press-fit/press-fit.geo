@@ -7,12 +7,12 @@ DefineConstant[
   r_outer = {1, Name "r_outer"},
   interference = {0, Name "interference"}, // radial, at rest
   n_inner = {192, Name "n_inner"},          // cells along the quarter circle, inner ring
-  n_outer = {192, Name "n_outer"}           // cells along the quarter circle, outer ring
+  n_outer = {192, Name "n_outer"},          // cells along the quarter circle, outer ring
+  slenderness = {1, Name "slenderness"}     // length of the cells in the radius over that along the middle circle of the ring
 ];
 
-// Cells are as long in the radius as along the middle circle of the ring.
-cells_inner = Ceil((r_fit - r_inner) / (Pi / 4 * (r_fit + r_inner) / n_inner));
-cells_outer = Ceil((r_outer - r_fit) / (Pi / 4 * (r_outer + r_fit) / n_outer));
+cells_inner = Ceil((r_fit - r_inner) / (slenderness * Pi / 4 * (r_fit + r_inner) / n_inner));
+cells_outer = Ceil((r_outer - r_fit) / (slenderness * Pi / 4 * (r_outer + r_fit) / n_outer));
 r_shrunk = r_fit + interference;
 
 Point(1) = {0, 0, 0};

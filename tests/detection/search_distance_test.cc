@@ -148,6 +148,28 @@ TEST(Detector, ReportsReasonsPenetrationsAndTimes)
     EXPECT_GE(report.seconds.at(step), 0) << step;
 }
 
+// The exact method works on surfaces that it has numbered anew where the given ones are numbered at random; brute force
+// never does.
+TEST(Detector, ReportsInTheGivenNumbers)
+{
+  const auto wavy = [](double s, double t) { return Point{s * s + 0.2 * s, t, 0.05 * std::sin(9 * s)}; };
+  const Surface target = shuffled(sheet(40, 30, true, wavy), 3);
+  const Surface impactor = shuffled(cloud_about(target, 600, 0.03, 2), 4);
+  DetectionOptions exact, brute;
+  brute.method = DetectionMethod::brute;
+  const auto detector = make_detector(exact, impactor, target), oracle = make_detector(brute, impactor, target);
+  const Pairing &pairs = detector->detect(impactor.reference, target.reference, 0);
+  const Pairing &expected = oracle->detect(impactor.reference, target.reference, 0);
+  const DetectionReport report = detector->report(), given = oracle->report();
+  EXPECT_EQ(report.distance_face, given.distance_face);
+  EXPECT_EQ(report.deepest_node, given.deepest_node);
+  EXPECT_EQ(report.deepest_point, given.deepest_point);
+  ASSERT_GE(report.deepest_node, 0);
+  EXPECT_EQ(report.deepest_point[2], impactor.reference[3 * report.deepest_node + 2]);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    EXPECT_EQ(pairs[i].face, expected[i].face) << i;
+}
+
 TEST(Detector, PositionsThatAreNotFiniteAreANumericalFailure)
 {
   const Surface target = chain({{2, 0}, {1, 0}, {0, 0}});

@@ -8,8 +8,6 @@ from svg import Plot
 
 TITLE = "Spheres and cylinder of Hertz"
 RADIUS, POISSON, EDGE = 1.0, 0.3, 0.01  # of each sphere, E = 1; contact radius at the end
-DOMAIN = {2: 1000, 3: 100}  # size over EDGE, axisymmetric and in space
-GROWTH = {2: 1.1, 3: 1.3}
 INCREMENTS = {2: 10, 3: 1}
 
 
@@ -33,10 +31,14 @@ class Pair:
         return (6 * force * self.modulus**2 / (math.pi**3 * self.radius**2)) ** (1 / 3)
 
 
-def bodies(path, dimension, equal, n):
+def outside(bench, dimension):
+    """Size of the domain over EDGE, and growth of the cells from one to the next outside of the contact."""
+    return (1000, 1.1) if dimension == 2 else bench.choose((100, 1.3), (100, 1.3), (1000, 1.25))
+
+
+def bodies(path, dimension, equal, n, size, growth):
     """A half-space, flat or with the paraboloid of a sphere up to 2 EDGE, and its mirror image where there are two."""
-    h = EDGE / n
-    domain, growth = EDGE * DOMAIN[dimension], GROWTH[dimension]
+    h, domain = EDGE / n, EDGE * size
     fine = mesh.spaced(0, 1.25 * EDGE, math.ceil(1.25 * n))
     across = fine + [fine[-1] + c for c in mesh.graded(h, domain - fine[-1], growth)[1:]]
     down = mesh.graded(h, domain, growth)
@@ -56,7 +58,7 @@ def deck(bench, dimension, equal, n):
     name = ("equal" if equal else "rigid") + ("-space" if dimension == 3 else "")
     approach = -Pair(equal).approach(EDGE)
     up = "z" if dimension == 3 else "y"
-    return f"{name}.yaml", {"mesh.file": bodies(bench.path(f"{name}-{n}.msh"), dimension, equal, n),
+    return f"{name}.yaml", {"mesh.file": bodies(bench.path(f"{name}-{n}.msh"), dimension, equal, n, *outside(bench, dimension)),
                             f"boundary.0.displacement.{up}": f"{approach}*t", "loading.increments": INCREMENTS[dimension]}
 
 

@@ -96,7 +96,7 @@ CONTACTS = {"faceted": ({"contact.0.normals": "faceted"}, HOLLOW), "smoothed": (
 
 
 def rows_of(label, runs, histories, coarser, tolerance, reason):
-    """Rows of one mesh from the runs without and with friction; `coarser`: the frictionless history of the mesh before, if any."""
+    """Rows of one mesh from the runs without and with friction; `coarser`: the frictionless history of cells twice as long."""
     smooth, sliding = histories
     work, amount, pressed = cycle(smooth)
     convergence = order(oscillation(coarser), oscillation(smooth)) if coarser else None
@@ -104,51 +104,104 @@ def rows_of(label, runs, histories, coarser, tolerance, reason):
     return [Row(f"{label}: force, peak to peak / mean", 0, oscillation(smooth), tolerance, runs=runs[:1], order=convergence),
             Row(f"{label}: work over the cycle / its amount", 0, work / amount, 1e-6, reason=reason),
             Row(f"{label}: work over the cycle / (force * way)", 0, work / pressed, 1e-3, reason=reason),
-            Row(f"{label}, mu 0.3: friction, mean", 0.3, sum(friction) / len(friction), 2e-2, runs=runs[1:], reason=FACES)]
+            Row(f"{label}, mu 0.3: friction, mean", 0.3, sum(friction) / len(friction), 2e-2, runs=runs[1:],
+                reason=AVERAGED if reason is AVERAGED else FACES)]
 
 
 def arch_rows(bench, name, meshes, plot):
     """Rows of one kind of contact on these meshes."""
     chosen, reason = CONTACTS[name]
-    steps, tolerance = bench.choose(40, 150, 300), bench.choose(5e-2, 2e-2)
+    tolerance = bench.choose(5e-2, 2e-2)
+
+    def increments(n_arch, mu):
+        """False friction of lagging normals goes with the increment and with the angle between two faces."""
+        least = 9600 // n_arch if name == "smoothed" and mu == 0 else 0
+        return 3 * bench.choose(40, max(least, 150), max(least, 300))
+
     try:
         runs = bench.run_all([("sliding.yaml", {
             "mesh.file": bodies(bench.path(f"arch-{n_arch}.msh"), n_arch, n_block), "boundary.1.displacement": motion(),
-            "loading.increments": 3 * steps, "loading.fixed": "true", "contact.0.friction.coefficient": mu, **chosen}, 1)
+            "loading.increments": increments(n_arch, mu), "loading.fixed": "true", "contact.0.friction.coefficient": mu, **chosen}, 1)
             for n_arch, n_block in meshes for mu in (0.0, 0.3)])
     except RuntimeError as error:
         if name != "mortar" or "exit code 2" not in str(error):
             raise
         return [Row(f"{name}: force, peak to peak / mean", 0, math.nan, tolerance, reason=SMALL_ONLY, refused=True)]
-    rows, coarser = [], None
+    rows, smooth = [], {}
     for (n_arch, n_block), pair in zip(meshes, zip(runs[::2], runs[1::2])):
         label, histories = f"{name}, {n_arch}:{n_block} cells", [forces(run) for run in pair]
-        rows += rows_of(label, pair, histories, coarser, tolerance, reason)
-        coarser, out = histories[0], steady(histories[0])
+        rows += rows_of(label, pair, histories, smooth.get((n_arch / 2, n_block / 2)), tolerance, reason)
+        smooth[n_arch, n_block], out = histories[0], steady(histories[0])
         mean = sum(force for _, force, *_ in out) / len(out)
         plot.add(label, [(math.degrees(TRAVEL) * (t - 1), force / mean) for t, force, *_ in out])
     return rows
 
 
+ACROSS = 1.2  # way of the block over the hump, in t from 1 to 2, and back
+
+
+def hump(bench):
+    """Work of the hump's force on a block dragged over it and back, where the target has no faces."""
+    n, made = bench.choose(9, 18, 36), mesh.Mesh(2)
+    made.add("block", mesh.spaced(-1.13, -0.09, n), mesh.spaced(0, 0.6, round(0.6 * n)))
+    run = bench.run("hump.yaml", {"mesh.file": made.write(bench.path("hump.msh"))})
+    history = [(step["time"], step["contacts"][0]["normal_force"][0]) for step in run.increments]
+    done = [0.0]
+    for (t, before), (now, after) in zip(history, history[1:]):
+        if t >= FORWARD[0] - 1e-9:
+            done.append(done[-1] + (before + after) / 2 * ACROSS * (now - t) * (1 if now <= FORWARD[1] + 1e-9 else -1))
+    return [Row(f"rigid hump, n {n}: work over the cycle / its amplitude", 0, done[-1] / (max(done) - min(done)), 1e-6, runs=[run])]
+
+
+# Forces on the indenter, 1e6: (vertical, horizontal) at t = 1 and at t = 1.5; README.md has the sources.
+PUBLISHED = {"Fischer, Wriggers": ((297.9, 62.1), (365.1, 188.8)), "Hartmann and others": ((319.5, 67.2), (408.4, 160.2)),
+             "Yastrebov": ((289.7, 58.5), (359.5, 170.8)), "Poulios, Renard": ((267.9, 55.3), (337.4, 102.1)),
+             "Code_Aster": ((332.0, 71.0), (421.0, 143.3)), "solids4foam": ((316.4, 55.0), (395.1, 122.7))}
+RATIOS = (0.30, 0.53)  # published horizontal over vertical force at t = 1.5, least and greatest
+STIFFEST = "less than 1 % above the greatest of the published forces; the laws' volumetric terms differ between authors and are not all stated"
+
+
 def ironing(bench):
-    """Fx/Fy on the block at t = 1.5; published values of this problem spread from 0.30 to 0.53, the middle +- 28 %."""
-    run = bench.run("examples/ironing/ironing.yaml")
-    at = min(range(len(run.increments)), key=lambda i: abs(run.increments[i]["time"] - 1.5))
-    contact = run.contact(increment=at)
-    fx, fy = (contact["normal_force"][c] + contact["tangential_force"][c] for c in (0, 1))
-    return Row("shallow ironing: Fx/Fy at t = 1.5, middle of what is published", 0.415, abs(fx / fy), 0.115 / 0.415, runs=[run])
+    """Shallow ironing against what six codes have published: the middle of it, with half its span as tolerance."""
+    run = bench.run("examples/ironing/ironing.yaml", {"loading.end": 1.6, "loading.increments": 800})
+    curve = []
+    for i, step in enumerate(run.increments):
+        contact = run.contact(increment=i)
+        across, down = (abs(contact["normal_force"][c] + contact["tangential_force"][c]) / 1e6 for c in (0, 1))
+        curve.append((step["time"], down, across))
+    pressed = min(curve, key=lambda point: abs(point[0] - 1))
+    sliding = [point for point in curve if 1.4 <= point[0] <= 1.6]  # over some faces of the indenter
+    mean = [sum(values) / len(values) for values in zip(*sliding)]
+    plot = Plot("Shallow ironing", "t", "force, 1e6")
+    for k, name in enumerate(("vertical", "horizontal")):
+        plot.add(name, [(point[0], point[1 + k]) for point in curve])
+        plot.add(f"published, {name}", [(t, forces_at[i][k]) for i, t in enumerate((1, 1.5)) for forces_at in PUBLISHED.values()], "points")
+    bench.plot("ironing", plot)
+
+    def row(quantity, published, ours, **more):
+        low, high = min(published), max(published)
+        return Row(f"shallow ironing: {quantity}", (low + high) / 2, ours, (high - low) / (high + low), **more)
+
+    found = []
+    for i, (when, ours) in enumerate((("pressed in", pressed), ("mean of t = 1.4 to 1.6", mean))):
+        for k, name in enumerate(("vertical", "horizontal")):
+            found.append(row(f"{name} force, {when}, 1e6, middle of 6 codes", [forces_at[i][k] for forces_at in PUBLISHED.values()],
+                             ours[1 + k], runs=[] if found else [run], reason=STIFFEST if i == 1 and k == 0 else ""))
+    vertical = [point[1] for point in sliding]
+    return found + [row("horizontal over vertical force, t = 1.4 to 1.6, middle of 8 codes", RATIOS, mean[2] / mean[1]),
+                    Row("shallow ironing: vertical force, peak to peak / mean", 0, (max(vertical) - min(vertical)) / mean[1], 2e-2)]
 
 
 def blocks(bench):
     """Once all of the interface slides, the forces are in Coulomb's ratio, up to the tilt of the surface."""
     run = bench.run("examples/blocks-3d/blocks-3d.yaml")
     tangential, normal = (math.hypot(*run.contact()[force]) for force in ("tangential_force", "normal_force"))
-    return Row("sliding blocks in space: friction over normal force at the end", 0.3, tangential / normal, 5e-3, runs=[run])
+    return [Row("sliding blocks in space: friction over normal force at the end", 0.3, tangential / normal, 5e-3, runs=[run])]
 
 
 def verify(bench):
-    meshes = bench.choose([(24, 9)], [(24, 9), (48, 18)], [(24, 9), (48, 18), (96, 36)])
+    meshes = bench.choose([(24, 9)], [(24, 9), (48, 18), (60, 9)], [(24, 9), (48, 18), (96, 36), (60, 9)])
     plot = Plot("Large sliding without friction: radial force over its mean", "turned by, degrees", "force / mean")
     rows = [row for name in CONTACTS for row in arch_rows(bench, name, meshes, plot)]
     bench.plot("force", plot)
-    return rows + [example(bench) for example in bench.choose([], [blocks], [blocks, ironing])]
+    return rows + [row for example in bench.choose([hump], [hump, blocks, ironing]) for row in example(bench)]

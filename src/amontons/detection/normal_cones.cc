@@ -24,6 +24,12 @@ float angle_bound(const Eigen::Vector3f &a, const Eigen::Vector3f &b)
   const float chord2 = (a - b).squaredNorm();
   return chord2 < 1 ? std::sqrt(chord2) * (1 + 0.05F * chord2) : everything;
 }
+
+// Not less than the arcsine.
+float arcsine_bound(float sine)
+{
+  return sine < 0.5F ? 1.05F * sine : 1.58F;
+}
 } // namespace
 
 NormalCones::Cone NormalCones::around(std::span<const Cone> parts)
@@ -145,7 +151,12 @@ bool NormalCones::may_hold_minimum(int level, std::size_t index, const Eigen::Ve
                                                            : fraction * cone.face_radius;
   if (least <= past_end || least <= 0)
     return true;
-  const float angle = std::atan2(offset.cross(cone.axis).norm(), offset.dot(cone.axis));
+  // Mostly the direction is far off, and its sine, which is less than it, tells.
+  const float allowed = cone.half_angle + arcsine_bound(cone.radius / distance) + arcsine_bound(past_end / least);
+  const float across = offset.cross(cone.axis).norm();
+  if (across > (allowed + round_off) * distance)
+    return false;
+  const float angle = std::atan2(across, offset.dot(cone.axis));
   const float from_axis = std::min(angle, std::numbers::pi_v<float> - angle);
   return from_axis <= cone.half_angle + std::asin(cone.radius / distance) + std::asin(past_end / least) + round_off;
 }
