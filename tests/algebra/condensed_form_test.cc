@@ -145,8 +145,7 @@ protected:
   Layout layout_ = make_layout();
   std::vector<SubdomainMatrix> bodies_{make_body()};
   std::unique_ptr<CoupledForm> coupled_ = std::make_unique<CoupledForm>(layout_, bodies_, make_direct_solver());
-  std::unique_ptr<CondensedForm> condensed_ =
-      std::make_unique<CondensedForm>(layout_, bodies_, make_direct_solver(), std::vector<double>{});
+  std::unique_ptr<CondensedForm> condensed_ = std::make_unique<CondensedForm>(layout_, bodies_, make_direct_solver());
 };
 
 TEST_P(CondensedFormTest, StatusesChangeAndThePatternStands)
@@ -251,10 +250,9 @@ TEST_P(CondensedFormTest, HeldModeOfASingularBody)
 
 TEST_P(CondensedFormTest, Multigrid)
 {
-  std::vector<double> reference;
   for (int i = 0; i < n_nodes * dim(); ++i)
-    reference.push_back(make_.number());
-  condensed_ = std::make_unique<CondensedForm>(layout_, bodies_, make_amg_solver(), reference);
+    reference_.push_back(make_.number());
+  condensed_ = std::make_unique<CondensedForm>(layout_, bodies_, make_amg_solver(), reference_);
   set_constraints({pair(0, 4, 0), pair(1, 5, 1), pair(2, 6, 2), pair(3, 7, 3)});
   expect_same_step({make_.stick(), make_.open(), make_.frictionless(), make_.frictionless()});
   expect_same_step({make_.slip(0.3, 0.5), make_.open(), make_.stick(), make_.open()});

@@ -86,8 +86,7 @@ std::unique_ptr<SystemForm> coupled_direct(const test::FormProblem &problem)
 }
 std::unique_ptr<SystemForm> condensed_direct(const test::FormProblem &problem)
 {
-  return std::make_unique<CondensedForm>(problem.layout, problem.subdomains, make_direct_solver(),
-                                         std::vector<double>{});
+  return std::make_unique<CondensedForm>(problem.layout, problem.subdomains, make_direct_solver(), problem.points);
 }
 std::unique_ptr<SystemForm> condensed_multigrid(const test::FormProblem &problem)
 {
@@ -144,7 +143,8 @@ TEST_P(DividedForms, EveryStatusAndChangedBodies)
     }
     expect_same_step();
   }
-  EXPECT_EQ(forms_->divided().counters().n_pattern_builds, 1);
+  // In axisymmetry target nodes become slaves of an impactor on the axis; their pattern may have to grow for it.
+  EXPECT_LE(forms_->divided().counters().n_pattern_builds, problem_.space() == Space::axisymmetric ? 2 : 1);
 }
 
 TEST_P(DividedForms, WithoutFrictionItIsSymmetric)
@@ -238,7 +238,7 @@ std::string name_of(Space space)
 }
 std::string name_of(Deal deal)
 {
-  return deal == Deal::even ? "even" : deal == Deal::in_turn ? "in_turn" : "last_only";
+  return deal == Deal::even ? "even" : deal == Deal::in_turn ? "in_turn" : deal == Deal::apart ? "apart" : "last_only";
 }
 std::string name_of(const testing::TestParamInfo<DividedForms::ParamType> &info)
 {
@@ -253,7 +253,12 @@ INSTANTIATE_TEST_SUITE_P(Direct, DividedForms,
                          Combine(Values(coupled, condensed), Values(Space::plane, Space::solid), Values(Deal::even)),
                          named);
 INSTANTIATE_TEST_SUITE_P(Axisymmetric, DividedForms,
-                         Combine(Values(coupled, condensed), Values(Space::axisymmetric), Values(Deal::in_turn)),
+                         Combine(Values(coupled, condensed), Values(Space::axisymmetric),
+                                 Values(Deal::in_turn, Deal::apart)),
+                         named);
+INSTANTIATE_TEST_SUITE_P(Apart, DividedForms,
+                         Combine(Values(coupled, condensed, multigrid), Values(Space::plane, Space::solid),
+                                 Values(Deal::apart)),
                          named);
 INSTANTIATE_TEST_SUITE_P(EmptyParts, DividedForms,
                          Combine(Values(coupled, condensed, multigrid), Values(Space::plane), Values(Deal::last_only)),

@@ -33,10 +33,10 @@ bool same(const ConstraintRows &a, const ConstraintRows &b)
 } // namespace
 
 CondensedForm::CondensedForm(const Layout &layout, std::span<const SubdomainMatrix> subdomains,
-                             std::unique_ptr<LinearSolver> solver, std::vector<double> reference)
+                             std::unique_ptr<LinearSolver> solver, const std::vector<double> &reference)
   : layout_(layout)
   , solver_(std::move(solver))
-  , reference_(std::move(reference))
+  , reference_(reference)
   , matrix_(layout, subdomains)
 {
 }
@@ -46,6 +46,7 @@ void CondensedForm::set_constraints(std::vector<ConstraintPattern> constraints,
 {
   patterns_ = std::move(constraints);
   rows_.assign(patterns_.size(), {});
+  refused_.clear();
   augmentation_.assign(patterns_.size(), 0);
   dense_unknowns_ = std::move(dense_blocks);
   dense_blocks_.clear();
@@ -71,11 +72,21 @@ bool CondensedForm::prepare()
   return !std::exchange(prepared_, true);
 }
 
+/// What one process alone is given must not throw here: factorize() does, on all.
 void CondensedForm::update_constraint(std::size_t k, const ConstraintValues &values)
 {
-  ConstraintRows rows = reduce_constraint(values);
-  constraints_changed_ |= !same(rows, rows_[k]);
-  rows_[k] = std::move(rows);
+  try
+  {
+    ConstraintRows rows = reduce_constraint(values);
+    constraints_changed_ |= !same(rows, rows_[k]);
+    rows_[k] = std::move(rows);
+    refused_.erase(k);
+  }
+  catch (const NumericalFailure &)
+  {
+    refused_[k] = std::current_exception();
+    constraints_changed_ = true;
+  }
   augmentation_[k] = values.augmentation;
 }
 
@@ -87,6 +98,12 @@ void CondensedForm::update_dense_block(std::size_t k, const Eigen::MatrixXd &val
 
 void CondensedForm::eliminate()
 {
+  agree_on_failures(layout_.sharing(),
+                    [&]
+                    {
+                      if (!refused_.empty())
+                        std::rethrow_exception(refused_.begin()->second);
+                    });
   bool symmetric = true;
   const int n = matrix_.blocks().block_size();
   std::vector<RowGroup> groups(rows_.size());
@@ -100,10 +117,10 @@ void CondensedForm::eliminate()
     }
     for (int a = 0; a < std::min(n, patterns_[k].n_nodal()); ++a)
       for (const Term &term : layout_.terms(patterns_[k].nodal[a]))
-        if (!matrix_.blocks().is_shared(term.unknown))
+        if (!matrix_.blocks().is_shared(term.unknown) && layout_.sharing().is_own(term.unknown))
           groups[k].own.push_back(term.unknown);
   }
-  elimination_.compute(layout_.n_displacement_unknowns(), groups, symmetric);
+  elimination_.compute(layout_.sharing(), matrix_.blocks(), groups, layout_.sharing().true_on_all(symmetric));
 }
 
 /// The unknown that moves most, of equal ones that of the lowest number, the same on all processes. @return -1 for
@@ -129,6 +146,7 @@ void CondensedForm::place_pins()
   std::vector<std::vector<double>> rest;
   for (const auto &mode : modes_)
   {
+    AMONTONS_ASSERT(mode.size() == static_cast<std::size_t>(layout_.n_displacement_unknowns()));
     rest.push_back(mode);
     for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
       if (elimination_.is_slave(i))
@@ -165,10 +183,11 @@ void CondensedForm::set_smooth_modes()
 
 void CondensedForm::factorize()
 {
+  constraints_changed_ = !layout_.sharing().true_on_all(!constraints_changed_);
   if (!subdomains_changed_ && !constraints_changed_ && !modes_changed_)
     return;
   if (subdomains_changed_ || constraints_changed_)
-    agree_on_failures(layout_.sharing(), [&] { eliminate(); });
+    eliminate();
   if (modes_changed_ || !modes_.empty())
     place_pins();
   if (matrix_.update(elimination_, subdomains_changed_))
@@ -180,16 +199,20 @@ void CondensedForm::factorize()
   subdomains_changed_ = constraints_changed_ = modes_changed_ = false;
 }
 
-/// W^T forces, over the rows of the reduced matrix.
-std::vector<double> CondensedForm::reduced(std::span<const double> forces) const
+/// W^T forces (or T^T), over the rows of the reduced matrix. Every unknown's part is counted by its owner.
+std::vector<double> CondensedForm::reduced(std::span<const double> of_unknowns, Side side) const
 {
+  const Sharing &unknowns = layout_.sharing();
   std::vector<double> out(static_cast<std::size_t>(matrix_.blocks().n_rows()), 0.0);
-  for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
-    if (!elimination_.is_slave(i))
-      out[matrix_.blocks().row(i)] = forces[i];
+  for (Index i = 0; i < unknowns.size(); ++i)
+    if (unknowns.is_own(i) && !elimination_.is_slave(i))
+      out[matrix_.blocks().row(i)] = of_unknowns[i];
   for (const Index slave : elimination_.slaves())
-    for (const Term &term : elimination_.weights(slave))
-      out[matrix_.blocks().row(term.unknown)] += term.coefficient * forces[slave];
+    if (unknowns.is_own(slave))
+      for (const auto &[row, coefficient] :
+           side == Side::motion ? elimination_.motion(slave) : elimination_.weights(slave))
+        out[row] += coefficient * of_unknowns[slave];
+  matrix_.blocks().sharing().sum(out, matrix_.blocks().block_size());
   return out;
 }
 
@@ -200,8 +223,8 @@ void CondensedForm::expand(std::span<const double> x, std::span<double> motion) 
     if (!elimination_.is_slave(i))
       motion[i] += x[matrix_.blocks().row(i)];
   for (const Index slave : elimination_.slaves())
-    for (const Term &term : elimination_.motion(slave))
-      motion[slave] += term.coefficient * x[matrix_.blocks().row(term.unknown)];
+    for (const auto &[row, coefficient] : elimination_.motion(slave))
+      motion[slave] += coefficient * x[row];
 }
 
 double CondensedForm::reduced_dot(std::span<const double> a, std::span<const double> b) const
@@ -236,18 +259,12 @@ std::vector<double> CondensedForm::solve_bordered(std::span<const double> forces
   std::vector<std::vector<double>> by_pin, by_mode, b;
   for (Eigen::Index m = 0; m < k; ++m)
   {
-    std::vector<double> pinned(x.size(), 0.0), motion(x.size(), 0.0);
+    std::vector<double> pinned(x.size(), 0.0);
     if (pins_[m] >= 0)
       pinned[pins_[m]] = alpha;
     by_pin.push_back(solve_reduced(pinned, 0));
     by_mode.push_back(solve_reduced(reduced(modes_[m]), 0));
-    for (Index i = 0; i < layout_.n_displacement_unknowns(); ++i)
-      if (!elimination_.is_slave(i))
-        motion[matrix_.blocks().row(i)] += modes_[m][i];
-    for (const Index slave : elimination_.slaves())
-      for (const Term &term : elimination_.motion(slave))
-        motion[matrix_.blocks().row(term.unknown)] += term.coefficient * modes_[m][slave];
-    b.push_back(std::move(motion));
+    b.push_back(reduced(modes_[m], Side::motion));
   }
   Eigen::MatrixXd small = Eigen::MatrixXd::Zero(2 * k, 2 * k);
   Eigen::VectorXd right(2 * k);
@@ -271,34 +288,73 @@ std::vector<double> CondensedForm::solve_bordered(std::span<const double> forces
   return x;
 }
 
-void CondensedForm::solve(std::span<const double> rhs, std::span<double> solution, double tolerance)
+Eigen::VectorXd CondensedForm::of_multipliers(std::size_t constraint, std::span<const double> unknowns) const
 {
-  const auto n = static_cast<std::size_t>(layout_.n_displacement_unknowns());
-  std::vector<double> forces(rhs.begin(), rhs.begin() + static_cast<std::ptrdiff_t>(n)), right_side;
-  double size2 = layout_.sharing().dot(forces, forces);
-  std::vector<Eigen::VectorXd> of_constraint(rows_.size());
+  const ConstraintPattern &pattern = patterns_[constraint];
+  Eigen::VectorXd out(pattern.n_multipliers);
+  for (int m = 0; m < pattern.n_multipliers; ++m)
+    out[m] = unknowns[layout_.multiplier(pattern.multipliers[m])];
+  return out;
+}
+
+CondensedForm::RightSide CondensedForm::make_right_side(std::span<const double> rhs) const
+{
+  const Sharing &unknowns = layout_.sharing();
+  RightSide out;
+  out.forces.assign(static_cast<std::size_t>(unknowns.size()), 0.0);
+  for (Index i = 0; i < unknowns.size(); ++i)
+    if (unknowns.is_own(i))
+    {
+      out.forces[i] = rhs[i];
+      out.size2 += rhs[i] * rhs[i];
+    }
   for (std::size_t k = 0; k < rows_.size(); ++k)
   {
-    Eigen::VectorXd &rl = of_constraint[k];
-    rl.resize(patterns_[k].n_multipliers);
-    for (int m = 0; m < patterns_[k].n_multipliers; ++m)
-      rl[m] = rhs[layout_.multiplier(patterns_[k].multipliers[m])];
-    size2 += (augmentation_[k] * rl).squaredNorm();
-    const Eigen::VectorXd force = rows_[k].right_side_force * rl, gap = rows_[k].row_right_side * rl;
+    const Eigen::VectorXd rl = of_multipliers(k, rhs), force = rows_[k].right_side_force * rl,
+                          gap = rows_[k].row_right_side * rl;
+    out.size2 += (augmentation_[k] * rl).squaredNorm();
     for (int a = 0; a < patterns_[k].n_nodal(); ++a)
       for (const Term &term : layout_.terms(patterns_[k].nodal[a]))
-        forces[term.unknown] -= term.coefficient * force[a];
-    right_side.insert(right_side.end(), gap.data(), gap.data() + gap.size());
+        out.forces[term.unknown] -= term.coefficient * force[a];
+    out.of_rows.insert(out.of_rows.end(), gap.data(), gap.data() + gap.size());
   }
+  unknowns.sum(out.forces);
+  unknowns.sum_over_processes({&out.size2, 1});
+  return out;
+}
 
-  std::vector<double> offset(n, 0.0);
-  for (const Index slave : elimination_.slaves())
-    for (const Term &term : elimination_.offset(slave))
-      offset[slave] += term.coefficient * right_side[term.unknown];
+/// @param reactions of the constraint rows @param solution has the displacements, gets the multipliers
+void CondensedForm::find_multipliers(std::span<const double> rhs, std::span<const double> reactions,
+                                     std::span<double> solution) const
+{
+  const double *row = reactions.data();
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+  {
+    Eigen::VectorXd du = Eigen::VectorXd::Zero(patterns_[k].n_nodal());
+    for (int a = 0; a < patterns_[k].n_nodal(); ++a)
+      for (const Term &term : layout_.terms(patterns_[k].nodal[a]))
+        du[a] += term.coefficient * solution[term.unknown];
+    const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(row, rows_[k].n_rows());
+    const Eigen::VectorXd step = rows_[k].multiplier_by_row * y +
+                                 rows_[k].multiplier_by_right_side * of_multipliers(k, rhs) +
+                                 rows_[k].multiplier_by_position * du;
+    for (int m = 0; m < patterns_[k].n_multipliers; ++m)
+      solution[layout_.multiplier(patterns_[k].multipliers[m])] = step[m];
+    row += rows_[k].n_rows();
+  }
+}
+
+void CondensedForm::solve(std::span<const double> rhs, std::span<double> solution, double tolerance)
+{
+  const Sharing &unknowns = layout_.sharing();
+  const RightSide right_side = make_right_side(rhs);
+  const std::vector<double> &forces = right_side.forces;
+  const auto n = forces.size();
+  const std::vector<double> offset = elimination_.offset(unknowns, right_side.of_rows);
   std::vector<double> resisted = matrix_.multiply(offset);
   for (std::size_t i = 0; i < n; ++i)
     resisted[i] = forces[i] - resisted[i];
-  const double absolute = tolerance * std::sqrt(size2);
+  const double absolute = tolerance * std::sqrt(right_side.size2);
   mode_reactions_.clear();
   const std::vector<double> x =
       modes_.empty() ? solve_reduced(reduced(resisted), absolute) : solve_bordered(resisted, offset, absolute);
@@ -310,26 +366,10 @@ void CondensedForm::solve(std::span<const double> rhs, std::span<double> solutio
   for (std::size_t m = 0; m < modes_.size(); ++m)
     for (std::size_t i = 0; i < n; ++i)
       resisted[i] += modes_[m][i] * mode_reactions_[m];
-  std::vector<double> reaction(right_side.size(), 0.0);
-  for (const Index slave : elimination_.slaves())
-    for (const Term &term : elimination_.reactions(slave))
-      reaction[term.unknown] += term.coefficient * (forces[slave] - resisted[slave]);
-
+  for (std::size_t i = 0; i < n; ++i)
+    resisted[i] = forces[i] - resisted[i];
   std::copy(motion.begin(), motion.end(), solution.begin());
-  Eigen::Index row = 0;
-  for (std::size_t k = 0; k < rows_.size(); ++k)
-  {
-    Eigen::VectorXd du = Eigen::VectorXd::Zero(patterns_[k].n_nodal());
-    for (int a = 0; a < patterns_[k].n_nodal(); ++a)
-      for (const Term &term : layout_.terms(patterns_[k].nodal[a]))
-        du[a] += term.coefficient * motion[term.unknown];
-    const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(reaction.data() + row, rows_[k].n_rows());
-    const Eigen::VectorXd step = rows_[k].multiplier_by_row * y + rows_[k].multiplier_by_right_side * of_constraint[k] +
-                                 rows_[k].multiplier_by_position * du;
-    for (int m = 0; m < patterns_[k].n_multipliers; ++m)
-      solution[layout_.multiplier(patterns_[k].multipliers[m])] = step[m];
-    row += rows_[k].n_rows();
-  }
+  find_multipliers(rhs, elimination_.reactions(unknowns, resisted), solution);
 }
 
 FormCounters CondensedForm::counters() const

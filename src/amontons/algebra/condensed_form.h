@@ -3,6 +3,8 @@
 #include "amontons/algebra/linear_solver.h"
 #include "amontons/algebra/system_form.h"
 
+#include <exception>
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -17,16 +19,14 @@ namespace amontons
 /// unknowns P as there are modes is regular; what the pins do is taken back by a small dense system for the reactions
 /// and the pinned motions (Sherman, Morrison, Woodbury): exact, and A's pattern and symmetry stay.
 ///
-/// Over several processes what concerns the constraints is computed by each alike, what concerns the bodies by each for
-/// its own.
+/// Over several processes each eliminates its own constraints, and makes its part of the matrix (CondensedMatrix).
 class CondensedForm : public SystemForm
 {
 public:
-  /// Collective.
-  /// @param reference places of the nodal components [n_nodal], length: rigid motions for multigrid. May be empty with
-  ///        a direct solver
+  /// @param reference places of the nodal components [n_nodal], length: rigid motions for multigrid, looked at whenever
+  ///        set up. Stays the caller's, who keeps it with the layout. Not looked at with a direct solver
   CondensedForm(const Layout &layout, std::span<const SubdomainMatrix> subdomains, std::unique_ptr<LinearSolver> solver,
-                std::vector<double> reference);
+                const std::vector<double> &reference);
 
   void set_constraints(std::vector<ConstraintPattern> constraints,
                        std::vector<std::vector<Index>> dense_blocks) override;
@@ -48,19 +48,35 @@ private:
   [[nodiscard]] Index choose_pin(std::span<const double> mode) const;
   [[nodiscard]] Eigen::VectorXd at_pins(std::span<const double> reduced) const;
   [[nodiscard]] double reduced_dot(std::span<const double> a, std::span<const double> b) const;
-  [[nodiscard]] std::vector<double> reduced(std::span<const double> forces) const;
+  enum class Side
+  {
+    motion, ///< T
+    forces, ///< W
+  };
+  [[nodiscard]] std::vector<double> reduced(std::span<const double> of_unknowns, Side side = Side::forces) const;
   [[nodiscard]] std::vector<double> solve_reduced(std::span<const double> forces, double tolerance);
   [[nodiscard]] std::vector<double> solve_bordered(std::span<const double> forces, std::span<const double> offset,
                                                    double tolerance);
+  struct RightSide
+  {
+    std::vector<double> forces;  ///< on the unknowns, without what the constraints' eliminated multipliers take
+    std::vector<double> of_rows; ///< of the constraint rows of this process
+    double size2 = 0;            ///< squared, as forces
+  };
+  [[nodiscard]] RightSide make_right_side(std::span<const double> rhs) const;
+  [[nodiscard]] Eigen::VectorXd of_multipliers(std::size_t constraint, std::span<const double> unknowns) const;
+  void find_multipliers(std::span<const double> rhs, std::span<const double> reactions,
+                        std::span<double> solution) const;
   void expand(std::span<const double> reduced, std::span<double> motion) const;
 
   const Layout &layout_;
   std::unique_ptr<LinearSolver> solver_;
-  std::vector<double> reference_;
+  const std::vector<double> &reference_;
   CondensedMatrix matrix_;
   std::vector<ConstraintPattern> patterns_;
   std::vector<ConstraintRows> rows_;
-  std::vector<double> augmentation_; ///< by constraint
+  std::map<std::size_t, std::exception_ptr> refused_; ///< by constraint whose values have no proper rows
+  std::vector<double> augmentation_;                  ///< by constraint
   std::vector<std::vector<Index>> dense_unknowns_;
   std::vector<Eigen::MatrixXd> dense_blocks_;
   ConstraintElimination elimination_;

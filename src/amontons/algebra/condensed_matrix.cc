@@ -9,19 +9,6 @@
 
 namespace amontons
 {
-CondensedMatrix::CondensedMatrix(const Layout &layout, std::span<const SubdomainMatrix> subdomains)
-  : layout_(layout)
-  , subdomains_(subdomains)
-  , blocks_(layout, subdomains)
-  , direct_(static_cast<std::size_t>(layout.n_nodal()), -1)
-  , feeding_(static_cast<std::size_t>(layout.n_displacement_unknowns()))
-{
-  matrix_.block_size = blocks_.block_size();
-  for (Index nodal = 0; nodal < layout.n_nodal(); ++nodal)
-    if (const auto terms = layout.terms(nodal); terms.size() == 1 && !blocks_.is_shared(terms[0].unknown))
-      direct_[nodal] = blocks_.row(terms[0].unknown);
-}
-
 void CondensedMatrix::set_pins(std::vector<Index> rows)
 {
   old_pins_.insert(old_pins_.end(), pins_.begin(), pins_.end());
@@ -49,9 +36,10 @@ void CondensedMatrix::prepare_columns(const ConstraintElimination &elimination)
   for (const Index nodal : indirect_)
     direct_[nodal] = blocks_.row(layout_.terms(nodal)[0].unknown);
   indirect_.clear();
-  for (const Index unknown : fed_)
-    feeding_[unknown].clear();
+  for (const Index row : fed_)
+    feeding_[row].clear();
   fed_.clear();
+  feeding_.resize(static_cast<std::size_t>(blocks_.n_rows()));
   for (const Index slave : elimination.slaves())
   {
     if (const Index nodal = blocks_.nodal_of_unknown(slave)[0]; direct_[nodal] >= 0)
@@ -59,10 +47,10 @@ void CondensedMatrix::prepare_columns(const ConstraintElimination &elimination)
       direct_[nodal] = -1;
       indirect_.push_back(nodal);
     }
-    for (const Term &term : elimination.weights(slave))
+    for (const auto &[row, coefficient] : elimination.weights(slave))
     {
-      feeding_[term.unknown].push_back({slave, term.coefficient});
-      fed_.push_back(term.unknown);
+      feeding_[row].push_back({slave, coefficient});
+      fed_.push_back(row);
     }
   }
 }
@@ -71,19 +59,24 @@ bool CondensedMatrix::update(const ConstraintElimination &elimination, bool ever
 {
   if (everything)
     find_mean_diagonal();
-  bool rebuilt = false;
-  agree_on_failures(layout_.sharing(), [&] { rebuilt = make_values(elimination, everything); });
-  return rebuilt;
+  const bool grown = extend_fill(elimination), rebuild = !layout_.sharing().true_on_all(pattern_stands_ && !grown);
+  if (rebuild)
+    blocks_.share_foreign();
+  agree_on_failures(layout_.sharing(),
+                    [&]
+                    {
+                      if (rebuild)
+                        build_pattern();
+                      make_values(elimination, everything || rebuild);
+                    });
+  return rebuild;
 }
 
-bool CondensedMatrix::make_values(const ConstraintElimination &elimination, bool everything)
+void CondensedMatrix::make_values(const ConstraintElimination &elimination, bool everything)
 {
-  const bool rebuild = extend_fill(elimination) || !pattern_stands_;
-  if (rebuild)
-    build_pattern();
   prepare_columns(elimination);
   const int n = blocks_.block_size();
-  if (everything || rebuild)
+  if (everything)
     for (Index row = 0; row < blocks_.n_rows(); ++row)
       make_row(row, elimination);
   else
@@ -101,7 +94,6 @@ bool CondensedMatrix::make_values(const ConstraintElimination &elimination, bool
     const auto begin = matrix_.col.begin() + matrix_.row_ptr[row], end = matrix_.col.begin() + matrix_.row_ptr[row + 1];
     matrix_.values[std::lower_bound(begin, end, row) - matrix_.col.begin()] += mean_diagonal_;
   }
-  return rebuild;
 }
 
 void CondensedMatrix::make_row(Index row, const ConstraintElimination &elimination)
@@ -111,17 +103,12 @@ void CondensedMatrix::make_row(Index row, const ConstraintElimination &eliminati
   for (Index k = begin; k < end; ++k)
     place_[matrix_.col[k]] = k;
   const Index unknown = blocks_.unknown(row);
-  if (unknown < 0 || elimination.is_slave(unknown))
-  {
-    if (blocks_.is_own_row(row))
-      matrix_.values[place_[row]] = mean_diagonal_;
-  }
-  else
-  {
+  if (unknown >= 0 && !elimination.is_slave(unknown))
     add_row_of(unknown, 1, elimination);
-    for (const Term &slave : feeding_[unknown])
-      add_row_of(slave.unknown, slave.coefficient, elimination);
-  }
+  else if (blocks_.is_own_row(row))
+    matrix_.values[place_[row]] = mean_diagonal_;
+  for (const Term &slave : feeding_[row])
+    add_row_of(slave.unknown, slave.coefficient, elimination);
   for (Index k = begin; k < end; ++k)
     place_[matrix_.col[k]] = -1;
 }
@@ -194,8 +181,8 @@ void CondensedMatrix::add_unknown(Index unknown, double value, const ConstraintE
     add_at(blocks_.row(unknown), value);
     return;
   }
-  for (const Term &term : elimination.motion(unknown))
-    add_at(blocks_.row(term.unknown), value * term.coefficient);
+  for (const auto &[row, coefficient] : elimination.motion(unknown))
+    add_at(row, value * coefficient);
 }
 
 std::vector<double> CondensedMatrix::multiply(std::span<const double> motion) const
@@ -206,7 +193,7 @@ std::vector<double> CondensedMatrix::multiply(std::span<const double> motion) co
       nodal[i] += term.coefficient * motion[term.unknown];
   for (const SubdomainMatrix &matrix : subdomains_)
     multiply_add(matrix, nodal, nodal_forces);
-  for (const Index k : counted_constraints_)
+  for (std::size_t k = 0; k < constraints_.size(); ++k)
     if (const Eigen::MatrixXd &stiffness = constraints_[k].stiffness; stiffness.size() > 0)
       for (int a = 0; a < patterns_[k].n_nodal(); ++a)
         for (int b = 0; b < patterns_[k].n_nodal(); ++b)

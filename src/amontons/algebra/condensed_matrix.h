@@ -16,19 +16,25 @@ namespace amontons
 /// The pattern holds whatever statuses the constraints take: each impactor node may be a slave of the nodes of its
 /// face. Only rows of contact nodes and their neighbours are made anew when constraints change.
 ///
-/// Over several processes the elimination is the same on all, and each makes W^T K_p T of its part K_p of the
-/// stiffness, to which a constraint, a dense block and a diagonal entry belong on one process only. The reduced matrix
-/// is the sum.
+/// Over several processes each makes W^T K_p T of its part K_p of the stiffness, to which its constraints belong, and
+/// dense blocks and diagonal entries of rows that it owns. The reduced matrix is the sum. A slave of which several
+/// processes have a copy may follow nodes that some of these do not have: they take in foreign blocks.
 class CondensedMatrix
 {
 public:
-  /// Collective.
-  CondensedMatrix(const Layout &layout, std::span<const SubdomainMatrix> subdomains);
+  CondensedMatrix(const Layout &layout, std::span<const SubdomainMatrix> subdomains)
+    : layout_(layout)
+    , subdomains_(subdomains)
+  {
+  }
 
   [[nodiscard]] const NodeBlocks &blocks() const { return blocks_; }
+  /// To take in rows that slaves follow; update() shares them.
+  [[nodiscard]] NodeBlocks &blocks() { return blocks_; }
   [[nodiscard]] const SparseMatrix &matrix() const { return matrix_; }
 
-  /// Makes the pattern anew at the next update(). The spans must stay.
+  /// Takes the present layout, and makes the pattern anew at the next update(). The spans must stay. Collective.
+  /// @param patterns, constraints of this process
   void set_constraints(std::span<const ConstraintPattern> patterns, std::span<const ConstraintRows> constraints,
                        std::span<const std::vector<Index>> dense_unknowns,
                        std::span<const Eigen::MatrixXd> dense_blocks);
@@ -44,11 +50,15 @@ public:
   [[nodiscard]] std::vector<double> multiply(std::span<const double> motion) const;
 
 private:
-  bool make_values(const ConstraintElimination &elimination, bool everything);
+  void make_values(const ConstraintElimination &elimination, bool everything);
+  void take_layout();
+  void share_masters();
   bool extend_fill(const ConstraintElimination &elimination);
   void build_pattern();
   void collect_columns(Index block, std::vector<Index> &columns);
   void add_column(Index block, std::vector<Index> &columns);
+  void add_block(Index block, std::vector<Index> &columns);
+  void add_dense(Index block, std::vector<Index> &columns);
   void add_neighbours(Index node, std::vector<Index> &columns);
   void prepare_columns(const ConstraintElimination &elimination);
   void make_row(Index row, const ConstraintElimination &elimination);
@@ -65,7 +75,7 @@ private:
   NodeBlocks blocks_;
   std::span<const ConstraintPattern> patterns_;
   std::span<const ConstraintRows> constraints_;
-  std::vector<Index> counted_constraints_, counted_dense_; ///< here
+  std::vector<Index> counted_dense_; ///< here
   std::span<const std::vector<Index>> dense_unknowns_;
   std::span<const Eigen::MatrixXd> dense_blocks_;
   std::vector<std::vector<Index>> constraints_of_node_;
@@ -80,7 +90,7 @@ private:
   Index stamp_ = 0;
 
   std::vector<Index> direct_;              ///< [n_nodal] row that a nodal component is, or -1
-  std::vector<std::vector<Term>> feeding_; ///< [n_unknowns] slaves whose equilibrium a row takes a part of
+  std::vector<std::vector<Term>> feeding_; ///< [n_rows] slaves whose equilibrium a row takes a part of
   std::vector<Index> fed_, indirect_;      ///< entries of feeding_ and direct_ that were changed
   std::vector<Index> place_;               ///< [n_rows] of a column in the row that is being made
   double mean_diagonal_ = 1;

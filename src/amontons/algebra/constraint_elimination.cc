@@ -1,11 +1,12 @@
 #include "amontons/algebra/constraint_elimination.h"
 
+#include "amontons/algebra/linear_solver_failure.h"
+
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 namespace amontons
 {
@@ -13,50 +14,8 @@ namespace
 {
 /// Least part of a row's largest coefficient (and force) that a slave of the impactor node must have.
 constexpr double local_pivot = 0.1;
-/// Below this part of the original row nothing is left of it: it depends on others.
-constexpr double dependent = 1e-10;
-/// Unknowns of the impactor node come first, if their coefficients are not much smaller.
-constexpr double preference = 10;
 
 using DenseRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using SparseRow = std::map<Index, double>;
-
-double largest(const SparseRow &row, Index below)
-{
-  double out = 0;
-  for (auto it = row.begin(); it != row.end() && it->first < below; ++it)
-    out = std::max(out, std::abs(it->second));
-  return out;
-}
-
-double value(const SparseRow &row, Index unknown)
-{
-  const auto it = row.find(unknown);
-  return it == row.end() ? 0 : it->second;
-}
-
-/// row := row with unknown = sum of expansion.
-void replace(SparseRow &row, Index unknown, const SparseRow &expansion)
-{
-  const auto it = row.find(unknown);
-  if (it == row.end())
-    return;
-  const double factor = it->second;
-  row.erase(it);
-  for (const auto &[u, c] : expansion)
-    row[u] += factor * c;
-}
-
-/// unknown = sum of what the equation `row` = 0 says.
-SparseRow solved_for(const SparseRow &row, Index unknown)
-{
-  SparseRow out(row);
-  out.erase(unknown);
-  const double pivot = row.at(unknown);
-  for (auto &[u, c] : out)
-    c /= -pivot;
-  return out;
-}
 
 /// Rows of a constraint over its distinct unknowns, with their units: [C | I].
 struct LocalRows
@@ -98,13 +57,14 @@ std::vector<Index> distinct_unknowns(const RowGroup &group)
 }
 } // namespace
 
-void ConstraintElimination::count_users(std::span<const RowGroup> groups)
+void ConstraintElimination::count_users(const Sharing &unknowns, std::span<const RowGroup> groups)
 {
-  n_users_.assign(static_cast<std::size_t>(n_unknowns_), 0);
+  n_users_.assign(static_cast<std::size_t>(unknowns.size()), 0);
   for (const RowGroup &group : groups)
     if (!group.positions.empty())
       for (const Index unknown : distinct_unknowns(group))
         ++n_users_[unknown];
+  unknowns.sum(n_users_);
 }
 
 void ConstraintElimination::add_slave(Index unknown, Expansion motion, Expansion weights)
@@ -116,7 +76,7 @@ void ConstraintElimination::add_slave(Index unknown, Expansion motion, Expansion
     weights_.push_back(std::move(weights));
 }
 
-bool ConstraintElimination::eliminate_locally(const RowGroup &group, Index first_row)
+bool ConstraintElimination::eliminate_locally(const NodeBlocks &blocks, const RowGroup &group, Index first_row)
 {
   const std::vector<Index> unknowns = distinct_unknowns(group);
   const auto n = static_cast<Eigen::Index>(group.positions.size()), m = static_cast<Eigen::Index>(unknowns.size());
@@ -153,10 +113,10 @@ bool ConstraintElimination::eliminate_locally(const RowGroup &group, Index first
     Expansion out;
     for (Eigen::Index k = 0; k < m; ++k)
       if (rows.values(row, k) != 0 && std::find(slave.begin(), slave.end(), k) == slave.end())
-        out.of_unknowns.push_back({unknowns[k], -rows.values(row, k)});
+        out.of_rows.push_back({blocks.row(unknowns[k]), -rows.values(row, k)});
     for (Eigen::Index k = 0; k < n; ++k)
       if (rows.values(row, m + k) != 0)
-        out.of_rows.push_back({first_row + static_cast<Index>(k), rows.values(row, m + k)});
+        out.of_constraints.push_back({first_row + static_cast<Index>(k), rows.values(row, m + k)});
     return out;
   };
   for (Eigen::Index row = 0; row < n; ++row)
@@ -164,146 +124,130 @@ bool ConstraintElimination::eliminate_locally(const RowGroup &group, Index first
   return true;
 }
 
-/// Gauss-Jordan elimination row by row: what is resolved is kept free of slaves.
-void ConstraintElimination::eliminate_together(std::vector<Pending> pending)
+/// @return rows of constraints that do not allow it
+std::vector<EntangledRow> ConstraintElimination::eliminate_groups(const Sharing &unknowns, const NodeBlocks &blocks,
+                                                                  std::span<const RowGroup> groups)
 {
-  struct Side
-  {
-    std::map<Index, SparseRow> resolved;
-    std::map<Index, std::set<Index>> users; ///< slaves whose expansion has (or had) an unknown
-    [[nodiscard]] SparseRow substituted(const std::vector<Term> &terms) const
-    {
-      SparseRow row;
-      for (const Term &term : terms)
-        if (const auto it = resolved.find(term.unknown); it == resolved.end())
-          row[term.unknown] += term.coefficient;
-        else
-          for (const auto &[u, c] : it->second)
-            row[u] += term.coefficient * c;
-      return row;
-    }
-    void resolve(Index slave, const SparseRow &row)
-    {
-      SparseRow expansion = solved_for(row, slave);
-      for (const Index user : users[slave])
-        replace(resolved[user], slave, expansion);
-      for (const auto &[u, c] : expansion)
-      {
-        users[u].insert(users[slave].begin(), users[slave].end());
-        users[u].insert(slave);
-      }
-      users.erase(slave);
-      resolved[slave] = std::move(expansion);
-    }
+  const auto whole = [&](Index unknown) {
+    return WholeUnknown{unknowns.number(unknown), blocks.number(blocks.row(unknown))};
   };
-  Side c, f;
-  for (const Pending &row : pending)
+  const auto over_whole = [&](const std::vector<Term> &terms)
   {
-    const SparseRow position = c.substituted(row.position), force = f.substituted(row.force);
-    const double position_scale = largest(position, n_unknowns_), force_scale = largest(force, n_unknowns_);
-    Index slave = -1;
-    double best = 0;
-    for (const auto &[u, coefficient] : position)
-    {
-      const bool own = std::find(row.own.begin(), row.own.end(), u) != row.own.end();
-      const double share = std::min(std::abs(coefficient) / position_scale, std::abs(value(force, u)) / force_scale) *
-                           (own ? preference : 1);
-      if (u < n_unknowns_ && share > best)
-      {
-        best = share;
-        slave = u;
-      }
-    }
-    const auto size = [](const std::vector<Term> &terms)
-    {
-      double out = 0;
-      for (const Term &term : terms)
-        out = std::max(out, std::abs(term.coefficient));
-      return out;
-    };
-    if (slave < 0 || position_scale <= dependent * size(row.position))
-      continue;
-    c.resolve(slave, position);
-    f.resolve(slave, force);
-  }
-  const auto expansion = [&](const SparseRow &row)
-  {
-    Expansion out;
-    for (const auto &[u, coefficient] : row)
-      if (coefficient != 0)
-        (u < n_unknowns_ ? out.of_unknowns : out.of_rows)
-            .push_back({u < n_unknowns_ ? u : u - n_unknowns_, coefficient});
+    std::vector<WholeTerm> out;
+    for (const Term &term : terms)
+      out.push_back({whole(term.unknown), term.coefficient});
     return out;
   };
-  for (const auto &[slave, row] : c.resolved)
-    add_slave(slave, expansion(row), expansion(f.resolved[slave]));
-}
-
-/// Slaves that were eliminated locally may still depend on slaves that were resolved together.
-void ConstraintElimination::substitute(std::vector<Expansion> &side, std::size_t from) const
-{
-  for (std::size_t s = 0; s < std::min(from, side.size()); ++s)
-  {
-    Expansion &expansion = side[s];
-    const auto depends = [&](const Term &term) { return is_slave(term.unknown); };
-    if (std::none_of(expansion.of_unknowns.begin(), expansion.of_unknowns.end(), depends))
-      continue;
-    SparseRow unknowns, rows;
-    for (const Term &term : expansion.of_rows)
-      rows[term.unknown] += term.coefficient;
-    for (const Term &term : expansion.of_unknowns)
-    {
-      if (!depends(term))
-      {
-        unknowns[term.unknown] += term.coefficient;
-        continue;
-      }
-      const Expansion &other = side[position_of_[term.unknown]];
-      for (const Term &t : other.of_unknowns)
-        unknowns[t.unknown] += term.coefficient * t.coefficient;
-      for (const Term &t : other.of_rows)
-        rows[t.unknown] += term.coefficient * t.coefficient;
-    }
-    const auto list = [](const SparseRow &row)
-    {
-      std::vector<Term> out;
-      for (const auto &[u, coefficient] : row)
-        out.push_back({u, coefficient});
-      return out;
-    };
-    expansion = {list(unknowns), list(rows)};
-  }
-}
-
-void ConstraintElimination::compute(Index n_unknowns, std::span<const RowGroup> groups, bool symmetric)
-{
-  n_unknowns_ = n_unknowns;
-  symmetric_ = symmetric;
-  position_of_.assign(static_cast<std::size_t>(n_unknowns), -1);
-  slaves_.clear();
-  motion_.clear();
-  weights_.clear();
-  count_users(groups);
-  std::vector<Pending> pending;
-  n_rows_ = 0;
+  std::vector<EntangledRow> entangled;
   for (const RowGroup &group : groups)
   {
-    if (!group.positions.empty() && !eliminate_locally(group, n_rows_))
+    if (!group.positions.empty() && !eliminate_locally(blocks, group, n_rows_))
       for (std::size_t r = 0; r < group.positions.size(); ++r)
       {
-        // C du - g = 0, with g as an unknown that is never eliminated.
-        const Index right_side = n_unknowns_ + n_rows_ + static_cast<Index>(r);
-        pending.push_back({group.positions[r], group.forces[r], group.own});
-        pending.back().position.push_back({right_side, -1});
-        pending.back().force.push_back({right_side, -1});
+        entangled_.push_back(n_rows_ + static_cast<Index>(r));
+        EntangledRow &row =
+            entangled.emplace_back(EntangledRow{over_whole(group.positions[r]), over_whole(group.forces[r]), {}});
+        for (const Index unknown : group.own)
+          row.own.push_back(whole(unknown));
       }
     n_rows_ += static_cast<Index>(group.positions.size());
   }
-  const std::size_t n_local = slaves_.size();
-  if (pending.empty())
-    return;
-  eliminate_together(std::move(pending));
-  substitute(motion_, n_local);
-  substitute(weights_, n_local);
+  return entangled;
+}
+
+ConstraintElimination::Expansion ConstraintElimination::local(NodeBlocks &blocks, const WholeExpansion &whole) const
+{
+  Expansion out;
+  for (const WholeTerm &term : whole.of_unknowns)
+    out.of_rows.push_back({blocks.take_row(term.unknown.row), term.coefficient});
+  for (const auto &[row, coefficient] : whole.of_rows)
+    out.of_constraints.push_back({entangled_[row], coefficient});
+  return out;
+}
+
+/// Those with a copy here. @return their positions among the resolved ones
+std::vector<std::size_t> ConstraintElimination::take_resolved(NodeBlocks &blocks,
+                                                              std::span<const ResolvedSlave> resolved)
+{
+  std::vector<std::size_t> taken;
+  for (std::size_t k = 0; k < resolved.size(); ++k)
+    if (const Index row = blocks.find_row(resolved[k].slave.row); row >= 0 && blocks.unknown(row) >= 0)
+    {
+      add_slave(blocks.unknown(row), local(blocks, resolved[k].motion), local(blocks, resolved[k].force));
+      taken.push_back(k);
+    }
+  return taken;
+}
+
+/// Slaves that were eliminated locally may still depend on slaves that were resolved together.
+/// @param resolved gives the expansion of a slave by its position
+template<class ExpansionOf>
+void ConstraintElimination::substitute(const Sharing &unknowns, NodeBlocks &blocks, std::vector<Expansion> &side,
+                                       ExpansionOf &&resolved) const
+{
+  for (std::size_t s = 0; s < std::min(n_local_, side.size()); ++s)
+  {
+    Expansion &expansion = side[s];
+    const auto depends = [&](const Entry &entry) { return is_slave(blocks.unknown(entry.row)); };
+    if (std::none_of(expansion.of_rows.begin(), expansion.of_rows.end(), depends))
+      continue;
+    std::map<WholeUnknown, double> of_unknowns;
+    std::map<Index, double> of_constraints;
+    for (const Entry &entry : expansion.of_constraints)
+      of_constraints[entry.row] += entry.coefficient;
+    for (const Entry &entry : expansion.of_rows)
+    {
+      const Index unknown = blocks.unknown(entry.row);
+      if (!depends(entry))
+      {
+        of_unknowns[{unknowns.number(unknown), blocks.number(entry.row)}] += entry.coefficient;
+        continue;
+      }
+      const WholeExpansion &other = resolved(static_cast<std::size_t>(position_of_[unknown]));
+      for (const WholeTerm &term : other.of_unknowns)
+        of_unknowns[term.unknown] += entry.coefficient * term.coefficient;
+      for (const auto &[row, coefficient] : other.of_rows)
+        of_constraints[entangled_[row]] += entry.coefficient * coefficient;
+    }
+    expansion = {};
+    for (const auto &[unknown, coefficient] : of_unknowns)
+      expansion.of_rows.push_back({blocks.take_row(unknown.row), coefficient});
+    for (const auto &[row, coefficient] : of_constraints)
+      expansion.of_constraints.push_back({row, coefficient});
+  }
+}
+
+void ConstraintElimination::compute(const Sharing &unknowns, NodeBlocks &blocks, std::span<const RowGroup> groups,
+                                    bool symmetric)
+{
+  symmetric_ = symmetric;
+  position_of_.assign(static_cast<std::size_t>(unknowns.size()), -1);
+  slaves_.clear();
+  motion_.clear();
+  weights_.clear();
+  entangled_.clear();
+  n_rows_ = 0;
+  count_users(unknowns, groups);
+  std::vector<EntangledRow> rows;
+  agree_on_failures(unknowns, [&] { rows = eliminate_groups(unknowns, blocks, groups); });
+  n_local_ = slaves_.size();
+  n_known_rows_ = n_rows_;
+  std::size_t first_own = 0;
+  rows = gather_rows(unknowns, std::move(rows), first_own);
+  if (!rows.empty())
+    agree_on_failures(unknowns,
+                      [&]
+                      {
+                        name_entangled(rows.size(), first_own);
+                        const std::vector<ResolvedSlave> resolved = resolve(rows);
+                        const std::vector<std::size_t> taken = take_resolved(blocks, resolved);
+                        substitute(unknowns, blocks, motion_,
+                                   [&](std::size_t position) -> const WholeExpansion &
+                                   { return resolved[taken[position - n_local_]].motion; });
+                        substitute(unknowns, blocks, weights_,
+                                   [&](std::size_t position) -> const WholeExpansion &
+                                   { return resolved[taken[position - n_local_]].force; });
+                      });
+  share_expansions(unknowns, blocks);
 }
 } // namespace amontons

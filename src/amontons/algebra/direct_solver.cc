@@ -6,8 +6,9 @@ namespace amontons
 {
 namespace
 {
-/// Residual, over the right side, with which equations of a singular matrix count as free of contradiction.
-constexpr double contradiction = 1e-9;
+/// Residual, over the right side, with which equations of a singular matrix count as free of contradiction; and from
+/// which a solution is none: round-off can hide that the matrix is singular, a pivot of 1e-16 in the place of zero.
+constexpr double contradiction = 1e-9, no_solution = 1e-3;
 
 /// Room beyond what the analysis foresees, per cent.
 constexpr PetscInt least_workspace = 50, most_workspace = 3200;
@@ -55,8 +56,7 @@ public:
     check_petsc(KSPSolve(ksp_.get(), matrix_.rhs(), matrix_.solution()), "solution");
     ++n_iterations_;
     matrix_.get_solution(solution);
-    if (n_null_pivots_ > 0)
-      check_residual();
+    check_residual();
   }
 
   [[nodiscard]] std::int64_t n_factorizations() const override { return n_factorizations_; }
@@ -117,7 +117,7 @@ private:
     check_petsc(VecAYPX(residual.get(), -1, matrix_.rhs()), "residual");
     check_petsc(VecNorm(residual.get(), NORM_2, &left), "residual");
     check_petsc(VecNorm(matrix_.rhs(), NORM_2, &size), "residual");
-    if (!(left <= contradiction * size))
+    if (!(left <= (n_null_pivots_ > 0 ? contradiction : no_solution) * size))
       throw NumericalFailure("the tangent matrix is singular");
   }
 

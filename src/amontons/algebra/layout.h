@@ -56,16 +56,6 @@ public:
     return {terms_.data() + offsets_[nodal], static_cast<std::size_t>(offsets_[nodal + 1] - offsets_[nodal])};
   }
 
-  /// Whether this is the one process that counts what all know of these nodal components: the owner of the first
-  /// unknown that moves one of them; of components that nothing moves, process 0.
-  [[nodiscard]] bool counts_here(std::span<const Index> nodal) const
-  {
-    for (const Index i : nodal)
-      for (const Term &term : terms(i))
-        return sharing_.is_own(term.unknown);
-    return sharing_.rank() == 0;
-  }
-
   /// unknown_vector[unknown] += coefficient * nodal_vector[nodal]: forces on nodes to forces on unknowns.
   void gather(std::span<const double> nodal_vector, std::span<double> unknown_vector) const
   {

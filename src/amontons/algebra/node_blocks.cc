@@ -16,6 +16,7 @@ NodeBlocks::NodeBlocks(const Layout &layout, std::span<const SubdomainMatrix> su
   nodal_of_unknown_ = {layout.n_displacement_unknowns(), entries};
   number_rows(layout);
   share_blocks(layout.sharing());
+  n_local_ = n_blocks();
 
   entries.clear();
   const Index n_nodes = layout.n_nodal() / size_;
@@ -84,5 +85,57 @@ void NodeBlocks::share_blocks(const Sharing &unknowns)
     preferred.push_back(unknowns.is_own(first));
   }
   sharing_ = Sharing(unknowns.messages(), "linear system", ids, preferred);
+  for (Index block = 0; block < n_blocks(); ++block)
+    if (sharing_.is_own(block))
+      own_blocks_.push_back(block);
+    else
+      other_blocks_.emplace(sharing_.number(block), block);
+}
+
+GlobalIndex NodeBlocks::number(Index row) const
+{
+  const Index block = row / size_;
+  const GlobalIndex of_block = block < sharing_.size()
+                                   ? sharing_.number(block)
+                                   : new_numbers_[static_cast<std::size_t>(block - sharing_.size())];
+  return of_block * size_ + row % size_;
+}
+
+Index NodeBlocks::find_row(GlobalIndex number) const
+{
+  if (!sharing_.is_distributed())
+    return static_cast<Index>(number);
+  const auto component = static_cast<Index>(number % size_);
+  const GlobalIndex of_block = number / size_, own = of_block - sharing_.first_own_number();
+  if (own >= 0 && own < sharing_.n_own())
+    return own_blocks_[own] * size_ + component;
+  const auto other = other_blocks_.find(of_block);
+  return other == other_blocks_.end() ? -1 : other->second * size_ + component;
+}
+
+Index NodeBlocks::take_row(GlobalIndex number)
+{
+  if (const Index row = find_row(number); row >= 0)
+    return row;
+  const Index block = n_blocks();
+  other_blocks_.emplace(number / size_, block);
+  new_numbers_.push_back(number / size_);
+  unknown_of_row_.resize(unknown_of_row_.size() + size_, -1);
+  return block * size_ + static_cast<Index>(number % size_);
+}
+
+void NodeBlocks::share_foreign()
+{
+  if (sharing_.true_on_all(new_numbers_.empty()))
+    return;
+  std::vector<GlobalIndex> ids;
+  std::vector<char> preferred;
+  for (Index block = 0; block < n_blocks(); ++block)
+  {
+    ids.push_back(number(block * size_) / size_);
+    preferred.push_back(block < n_local_ && sharing_.is_own(block));
+  }
+  sharing_ = Sharing(sharing_.messages(), "linear system", ids, preferred); // with the same owners, so the same numbers
+  new_numbers_.clear();
 }
 } // namespace amontons
