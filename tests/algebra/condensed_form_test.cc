@@ -145,7 +145,9 @@ protected:
   Layout layout_ = make_layout();
   std::vector<SubdomainMatrix> bodies_{make_body()};
   std::unique_ptr<CoupledForm> coupled_ = std::make_unique<CoupledForm>(layout_, bodies_, make_direct_solver());
-  std::unique_ptr<CondensedForm> condensed_ = std::make_unique<CondensedForm>(layout_, bodies_, make_direct_solver());
+  std::vector<double> reference_;
+  std::unique_ptr<CondensedForm> condensed_ =
+      std::make_unique<CondensedForm>(layout_, bodies_, make_direct_solver(), reference_);
 };
 
 TEST_P(CondensedFormTest, StatusesChangeAndThePatternStands)
