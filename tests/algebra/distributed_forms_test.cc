@@ -232,6 +232,23 @@ TEST_P(DividedForms, FailsOnAllAndGoesOn)
   expect_same_step();
 }
 
+/// What one process alone is given.
+TEST(CondensedOverProcesses, ValuesWithoutProperRowsFailOnAllUntilBetterOnesCome)
+{
+  LatticeProblem problem(Space::plane);
+  problem.make_layout();
+  test::DividedForm forms(problem, Deal::apart, coupled_direct, condensed_direct);
+  for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+    forms.update_constraint(k, problem.make.stick());
+  ElementBlocks broken = problem.make.stick();
+  broken.stiffness(0, 0) = broken.force_by_multiplier(0, 0) = std::nan("");
+  forms.update_constraint(0, broken);
+  for (int times = 0; times < 2; ++times)
+    EXPECT_THROW(forms.divided().factorize(), NumericalFailure);
+  forms.update_constraint(0, problem.make.stick());
+  EXPECT_LT(forms.difference(problem.random_rhs(), 1e-13), condensed.accuracy);
+}
+
 std::string name_of(Space space)
 {
   return space == Space::plane ? "plane" : space == Space::axisymmetric ? "axisymmetric" : "solid";

@@ -1,7 +1,10 @@
 // Run on three processes.
+#include "amontons/parallel/holders.h"
 #include "amontons/parallel/sharing.h"
 
 #include <gmock/gmock.h>
+
+#include <map>
 
 namespace amontons
 {
@@ -98,6 +101,25 @@ TEST_F(SharedItems, CopiesOfASumAreEqualBitByBit)
   sharing.maximum(least);
   for (std::size_t i = 0; i < ids_.size(); ++i)
     EXPECT_EQ(greatest[i], -least[i]);
+}
+
+/// Process r says r + 1 numbers of every item but 101.
+TEST_F(SharedItems, HoldersHearWhatOthersSay)
+{
+  const Sharing sharing(messages_, "test", ids_);
+  const Rank rank = messages_->communicator().rank();
+  std::map<GlobalIndex, std::vector<std::vector<double>>> heard;
+  tell_holders(
+      sharing, "test", [&](Index i) { return ids_[i] != 101; },
+      [&](Index i, ByteWriter &writer)
+      { writer.add_array(std::vector<double>(rank + 1, static_cast<double>(ids_[i]))); },
+      [&](Index i, ByteReader &reader) { heard[ids_[i]].push_back(reader.get_array<double>()); });
+  std::map<GlobalIndex, std::vector<std::vector<double>>> expected;
+  for (Rank other = 0; other < 3; ++other)
+    for (const GlobalIndex id : {100, 102})
+      if (other != rank && has(id) && (id == 100 || other != 0))
+        expected[id].emplace_back(other + 1, static_cast<double>(id));
+  EXPECT_EQ(heard, expected);
 }
 
 TEST_F(SharedItems, DotCountsEachItemOnce)
