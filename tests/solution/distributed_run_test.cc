@@ -263,6 +263,73 @@ TEST_P(DistributedContact, ASurfaceThatTouchesItself)
   expect_as_alone(problem);
 }
 
+/// Cells of one law may be on one process alone, those of the other on the rest.
+TEST_P(DistributedContact, PlasticOnElastic)
+{
+  Problem problem = dragged_block();
+  problem.options.bodies[1].material.law = MaterialLaw::von_mises;
+  problem.options.bodies[1].material.yield_stress = 0.05;
+  problem.options.loading.increments = 2;
+  expect_as_alone(problem);
+}
+
+/// Frames of faces turn in space; nodes come to faces that their process did not know.
+TEST_P(DistributedContact, InSpaceFromFaceToFace)
+{
+  Blocks mesh(3);
+  mesh.add("lower", {-1, -0.5, -0.4}, {3, 1, 0.4}, {12, 3, 2},
+           [](const Point &x) { return Point(x[0], x[1], x[2] + (x[2] > -0.1 ? 0.02 * std::sin(2 * x[0]) : 0)); });
+  mesh.add("upper", {-0.6, -0.3, 0.03}, {0.8, 0.55, 0.4}, {4, 3, 2});
+  Problem problem(mesh, Kinematics::three_dimensional, Strain::finite);
+  problem.elastic("lower", 1);
+  problem.elastic("upper", 2, 0.2);
+  problem.on("lower_bottom").fix = {0, 1, 2};
+  problem.on("upper_top").displacement = {
+      {0, expression("0.5 * t")}, {1, expression("0.05 * t")}, {2, expression("-0.08 * min(4*t, 1)")}};
+  problem.contact("upper_bottom", "lower_top", 0.2);
+  problem.options.loading.increments = 8;
+  expect_as_alone(problem);
+}
+
+/// Finite strain, the upper block borne by contact alone while it is pushed along.
+TEST_P(DistributedContact, ABodyThatOnlyContactHolds)
+{
+  Blocks mesh(2);
+  mesh.add("lower", {-1, -1, 0}, {3, 1, 0}, {15, 4, 0});
+  mesh.add("upper", {-0.5, 0.02, 0}, {1, 0.7, 0}, {6, 4, 0});
+  Problem problem(mesh, Kinematics::plane_strain, Strain::finite);
+  problem.elastic("lower", 10);
+  problem.elastic("upper", 20, 0.2);
+  problem.on("lower_bottom").fix = {0, 1};
+  problem.on("upper_top").traction[1] = expression("-0.2");
+  problem.on("upper_left").displacement[0] = expression("0.3 * t");
+  problem.contact("upper_bottom", "lower_top");
+  problem.options.loading.increments = 6;
+  expect_as_alone(problem);
+}
+
+/// A block in a corner: one of its nodes is in both contacts. The wall is rigid, meshed, and the impactor.
+TEST_P(DistributedContact, ACornerWithARigidImpactor)
+{
+  Blocks mesh(2);
+  mesh.add("floor", {-1, -1, 0}, {3, 1, 0}, {11, 4, 0});
+  mesh.add("wall", {-0.5, 0.1, 0}, {0.5, 0.8, 0}, {1, 3, 0});
+  mesh.add("box", {0, 0, 0}, {1, 1, 0}, {6, 6, 0});
+  Problem problem(mesh, Kinematics::plane_strain);
+  problem.elastic("floor", 10);
+  problem.elastic("box", 3, 0.2);
+  problem.rigid("wall");
+  problem.on("floor_bottom").fix = {0, 1};
+  problem.on("wall").fix = {0, 1};
+  problem.on("wall").rotation = {{2, expression(0)}};
+  problem.on("box_top").displacement = {{0, expression("-0.02 * t")}, {1, expression("-0.03 * t")}};
+  problem.contact("box_bottom", "floor_top", 0.3);
+  problem.contact("wall_right", "box_left", 0.1);
+  problem.contact("box_left", "floor_top");
+  problem.options.loading.increments = 3;
+  expect_as_alone(problem);
+}
+
 INSTANTIATE_TEST_SUITE_P(Solvers, DistributedContact,
                          testing::Values(Solver{"coupled", LinearSolverType::direct, MultiplierForm::coupled},
                                          Solver{"direct", LinearSolverType::direct, MultiplierForm::condensed}),

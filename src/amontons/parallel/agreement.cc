@@ -133,6 +133,14 @@ void end_together(const Communicator &communicator, const std::function<void()> 
   throw_gravest(own.communicator(), ending);
 }
 
+bool is_greatest(const Sharing &processes, double value, double place)
+{
+  const double greatest = processes.maximum_over_processes(value);
+  const bool is_candidate = value == greatest && value != no_candidate;
+  const double first = processes.maximum_over_processes(is_candidate ? -place : no_candidate);
+  return is_candidate && -place == first;
+}
+
 std::string told_by_one(const Sharing &processes, bool tells, const std::function<std::string()> &text)
 {
   const double teller = processes.maximum_over_processes(tells ? processes.rank() : -1);

@@ -3,6 +3,7 @@
 #include "amontons/parallel/sharing.h"
 
 #include <functional>
+#include <limits>
 #include <string>
 
 namespace amontons
@@ -23,6 +24,12 @@ void agree_on_errors(const Communicator &communicator, const std::function<void(
 /// To be put around work before what the work has built is destroyed, where destroying it is collective. One process
 /// alone gets its exception as it is.
 void end_together(const Communicator &communicator, const std::function<void()> &work);
+
+/// Whether this process's candidate is the one of all with the greatest value, of equal ones that of the lowest place
+/// (no two of which are equal). Collective.
+/// @param value no_candidate where it has none
+bool is_greatest(const Sharing &processes, double value, double place);
+constexpr double no_candidate = -std::numeric_limits<double>::infinity();
 
 /// What one process has to tell, on all; of several that of the highest rank; empty where nobody has. Collective.
 std::string told_by_one(const Sharing &processes, bool tells, const std::function<std::string()> &text);

@@ -4,6 +4,7 @@
 #include "amontons/base/hash.h"
 #include "amontons/parallel/agreement.h"
 #include "amontons/parallel/archive.h"
+#include "amontons/solution/checkpoint_contacts.h"
 
 #include <algorithm>
 #include <array>
@@ -104,73 +105,6 @@ std::map<GlobalIndex, std::span<const double>> by_cell(const CellHistories &hist
     out[histories.cells[i]] =
         std::span(histories.values).subspan(histories.offset[i], histories.offset[i + 1] - histories.offset[i]);
   return out;
-}
-
-/// Adds node i of one history to another.
-void append(ContactHistory &to, const ContactHistory &from, std::size_t i)
-{
-  const auto add = [&](auto &values, const auto &others, std::size_t n)
-  {
-    const auto first = others.begin() + static_cast<std::ptrdiff_t>(i * n);
-    values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(n));
-  };
-  add(to.nodes, from.nodes, 1);
-  add(to.pairing, from.pairing, 1);
-  add(to.face_nodes, from.face_nodes, max_face_nodes);
-  add(to.status, from.status, 1);
-  add(to.total_slip, from.total_slip, from.total_slip.size() / from.nodes.size());
-}
-
-/// Where a contact node's history and multipliers are.
-struct ContactPlace
-{
-  GlobalIndex node;
-  std::size_t part, i, multiplier; ///< which part, which of its nodes, first of its multipliers
-};
-
-/// Of a contact's nodes in several parts, by their positions in the whole.
-std::vector<ContactPlace> contact_places(std::span<const Checkpoint *const> parts, std::size_t contact, int dim)
-{
-  std::vector<ContactPlace> out;
-  for (std::size_t part = 0; part < parts.size(); ++part)
-  {
-    std::size_t before = 0;
-    for (std::size_t c = 0; c < contact; ++c)
-      before += parts[part]->contacts[c].nodes.size();
-    const std::vector<GlobalIndex> &nodes = parts[part]->contacts[contact].nodes;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      out.push_back({nodes[i], part, i, (before + i) * dim});
-  }
-  std::sort(out.begin(), out.end(), [](const ContactPlace &a, const ContactPlace &b) { return a.node < b.node; });
-  return out;
-}
-
-/// Adds a contact's history and multipliers, which are those at some places of it in several parts.
-void add_contact(Checkpoint &out, std::span<const Checkpoint *const> parts, std::size_t contact,
-                 std::span<const ContactPlace> places, int dim)
-{
-  ContactHistory &history = out.contacts.emplace_back();
-  const auto add = [&](State &to, const State &from, std::size_t multiplier)
-  {
-    const auto first = from.multipliers.begin() + static_cast<std::ptrdiff_t>(multiplier);
-    to.multipliers.insert(to.multipliers.end(), first, first + dim);
-  };
-  for (const ContactPlace &place : places)
-  {
-    const Checkpoint &part = *parts[place.part];
-    append(history, part.contacts[contact], place.i);
-    add(out.state, part.state, place.multiplier);
-    if (out.last)
-      add(out.last->start, part.last->start, place.multiplier);
-  }
-}
-
-void forget_contacts(Checkpoint &checkpoint)
-{
-  checkpoint.contacts.clear();
-  checkpoint.state.multipliers.clear();
-  if (checkpoint.last)
-    checkpoint.last->start.multipliers.clear();
 }
 
 /// What a process brings to the whole.
@@ -303,9 +237,13 @@ Checkpoint part_of(const Checkpoint &whole, std::uint64_t problem_key, const Mes
 {
   const auto check = [&]
   {
-    if (nodes.rank() == 0 && whole.problem_key != problem_key)
+    if (nodes.rank() > 0)
+      return;
+    if (whole.problem_key != problem_key)
       throw UserError("the checkpoint is of another problem: mesh, kinds of bodies and contacts must be those "
                       "of the deck");
+    if (!is_whole(whole, contact_nodes.size(), mesh.dim))
+      throw UserError("the checkpoint does not hold what contacts remember");
   };
   if (!nodes.is_distributed())
   {

@@ -47,7 +47,7 @@ struct TargetFaces
 /// belong to who owns the impactor node; target nodes may be copies that it has for that alone (Model's halo).
 ///
 /// Displacements are nodal vectors [n_nodal], the halo's among them; `start` is the one at the beginning of the
-/// increment. Nothing here is collective.
+/// increment. Local but for what says otherwise.
 class ContactInterface
 {
 public:

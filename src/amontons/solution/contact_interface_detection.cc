@@ -94,4 +94,53 @@ void ContactInterface::turn_multipliers(std::span<const double> displacement, st
   }
   old_frames_.clear();
 }
+
+ContactHistory ContactInterface::history() const
+{
+  const auto &ids = impactor().node_ids;
+  return {{ids.begin(), ids.begin() + n_nodes()}, start_pairing_, start_faces_.ids, status_, total_slip_};
+}
+
+void ContactInterface::set_history(const ContactHistory &history)
+{
+  const auto n = static_cast<std::size_t>(n_nodes());
+  if (history.status.size() != n || history.total_slip.size() != n * (dim_ - 1) ||
+      history.pairing.size() != pairing_.size() || history.face_nodes.size() != faces_.ids.size())
+    throw UserError("the checkpoint holds another number of nodes of contact '" + options_.name + "'");
+  status_ = history.status;
+  total_slip_ = history.total_slip;
+  if (!small_) // there pairs are those of the reference, for what the loads will move
+  {
+    pairing_ = history.pairing;
+    faces_.ids = history.face_nodes;
+  }
+  start_pairing_ = pairing_;
+  start_faces_ = faces_;
+}
+
+std::vector<GlobalIndex> ContactInterface::wanted_nodes() const
+{
+  std::vector<GlobalIndex> out;
+  for (const TargetFaces *faces : {&faces_, &start_faces_})
+    std::copy_if(faces->ids.begin(), faces->ids.end(), std::back_inserter(out), [](GlobalIndex id) { return id >= 0; });
+  if (mortar_)
+    out.insert(out.end(), mortar_->targets.begin(), mortar_->targets.end());
+  return out;
+}
+
+void ContactInterface::place_faces(const std::function<Index(GlobalIndex)> &position_of)
+{
+  const auto place = [&](const std::vector<GlobalIndex> &ids, std::vector<Index> &positions)
+  {
+    positions.resize(ids.size());
+    std::transform(ids.begin(), ids.end(), positions.begin(),
+                   [&](GlobalIndex id) { return id < 0 ? Index(-1) : position_of(id); });
+  };
+  for (TargetFaces *faces : {&faces_, &start_faces_})
+    place(faces->ids, faces->positions);
+  if (mortar_)
+    place(mortar_->targets, mortar_->positions);
+  if (surfaces_.whole_target && !is_mortar())
+    place(surfaces_.whole_target->node_ids, smoothed_positions_);
+}
 } // namespace amontons

@@ -1,5 +1,7 @@
 #include "amontons/solution/free_motions.h"
 
+#include "amontons/parallel/agreement.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -190,18 +192,11 @@ FreeMotions::Carrier FreeMotions::carrier_of_target(const ContactInterface &cont
 {
   const Sharing &nodes = model_.nodes();
   const std::vector<Index> &targets = contact.target_nodes();
-  double lowest = -HUGE_VAL;
-  Index node = -1;
-  for (const Index target : targets)
-    if (const auto number = -static_cast<double>(model_.node_id(target)); number > lowest)
-    {
-      lowest = number;
-      node = target;
-    }
-  // All that have it say the same.
-  const bool tells = nodes.maximum_over_processes(lowest) == lowest && node >= 0;
+  const auto lowest = std::min_element(targets.begin(), targets.end(),
+                                       [&](Index a, Index b) { return model_.node_id(a) < model_.node_id(b); });
+  const Index node = lowest == targets.end() ? -1 : *lowest;
   std::array<double, 2> told{-1, -1};
-  if (tells)
+  if (is_greatest(nodes, node < 0 ? no_candidate : -static_cast<double>(model_.node_id(node)), nodes.rank()))
     told = {static_cast<double>(carrier(node).part), static_cast<double>(carrier(node).rigid)};
   nodes.maximum_over_processes(told);
   return {static_cast<int>(told[0]), static_cast<int>(told[1])};
@@ -260,19 +255,11 @@ std::optional<Eigen::VectorXd> FreeMotions::close_first(Displacement displacemen
     row = over;
   }
   const Sharing &processes = model_.nodes();
-  const double first = -processes.maximum_over_processes(-soonest);
-  if (first == never)
+  if (processes.true_on_all(soonest == never))
     return {};
   decision.closes = true;
-  // Of nodes that would close at once that of the lowest contact and number.
-  double place = -HUGE_VAL;
-  if (soonest == first)
-  {
-    const CandidateNode &c = candidates[chosen];
-    place = -(static_cast<double>(c.contact) * static_cast<double>(model_.mesh().n_global_nodes) +
-              static_cast<double>(model_.node_id(model_.contacts()[c.contact].node(c.node))));
-  }
-  if (place == processes.maximum_over_processes(place) && soonest == first)
+  const double place = soonest == never ? 0 : model_.place_of(candidates[chosen].contact, candidates[chosen].node);
+  if (is_greatest(processes, -soonest, place))
   {
     decision.closed.emplace_back(candidates[chosen].contact, candidates[chosen].node);
     candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(chosen));

@@ -27,6 +27,8 @@ public:
   /// @param messages between the processes; null for one process
   /// @throws UserError, on all processes, for everything that only the mesh can tell is wrong
   explicit Model(const ProblemOptions &options, std::shared_ptr<MessageExchange> messages = nullptr);
+  Model(const Model &) = delete; // contacts and forms refer to parts of it
+  Model &operator=(const Model &) = delete;
 
   [[nodiscard]] const ProblemOptions &options() const { return options_; }
   [[nodiscard]] const Mesh &mesh() const { return part_.mesh; }
@@ -51,8 +53,16 @@ public:
   [[nodiscard]] const Supports &supports() const { return *supports_; }
   [[nodiscard]] BodyAssembly &bodies() { return *bodies_; }
   [[nodiscard]] const BodyAssembly &bodies() const { return *bodies_; }
+  /// Whether one assembly of the bodies' stiffness serves the whole run, on all processes.
+  [[nodiscard]] bool tangent_is_constant() const { return tangent_is_constant_; }
   [[nodiscard]] std::vector<ContactInterface> &contacts() { return contacts_; }
   [[nodiscard]] const std::vector<ContactInterface> &contacts() const { return contacts_; }
+  /// Orders impactor nodes of all contacts: by contact, then by the node's position in the whole mesh.
+  [[nodiscard]] double place_of(std::size_t contact, Index node) const
+  {
+    return static_cast<double>(contact) * static_cast<double>(mesh().n_global_nodes) +
+           static_cast<double>(contacts_[contact].impactor().node_ids[node]);
+  }
   [[nodiscard]] bool has_friction() const
   {
     return std::any_of(contacts_.begin(), contacts_.end(),
@@ -94,6 +104,7 @@ public:
   /// Searches the faces of all contacts in a state, and makes the halo that they ask for; tangential multipliers go
   /// along to new faces. In small strain in the reference, once. Collective.
   /// @param reaches by contact, see Detector::detect @param keep see ContactInterface::take_pairs()
+  /// @throws NumericalFailure on all; faces and halo may have changed then
   /// @return whether the face of any node of any process changed
   bool detect(State &state, std::span<const double> reaches, bool keep);
   /// Makes the halo that the contacts' pairs ask for. Collective.
@@ -132,6 +143,7 @@ private:
   std::unique_ptr<RigidBodies> rigid_;
   std::unique_ptr<Supports> supports_;
   std::unique_ptr<BodyAssembly> bodies_;
+  bool tangent_is_constant_ = false;
   std::vector<ContactInterface> contacts_;
   std::unique_ptr<ContactSearch> search_;          ///< in small strain until it has found the pairs, for good
   std::vector<DetectionReport> detection_reports_; ///< from then on

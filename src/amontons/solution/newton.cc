@@ -69,8 +69,12 @@ void Newton::begin_increment(const State &state, double reach)
   reach_ = reach;
   bool restored = false;
   const std::vector<double> displacement = model_.with_halo(state.displacement);
-  for (ContactInterface &contact : model_.contacts())
-    restored |= contact.begin_increment(displacement);
+  agree_on_failures(model_.nodes(),
+                    [&]
+                    {
+                      for (ContactInterface &contact : model_.contacts())
+                        restored |= contact.begin_increment(displacement);
+                    });
   if (!model_.nodes().true_on_all(!restored))
     contacts_.rebuild_pattern();
 }
@@ -82,10 +86,26 @@ bool Newton::detect(State &state)
   const auto scope = timers_.measure("detection");
   counters_.n_detections += static_cast<std::int64_t>(model_.contacts().size());
   const std::vector<double> reaches(model_.contacts().size(), reach_);
-  if (!model_.detect(state, reaches, true))
-    return false;
-  contacts_.rebuild_pattern();
-  return true;
+  const int halo = model_.halo_version();
+  bool changed = false;
+  const auto take_over = [&]
+  {
+    if (model_.halo_version() != halo)
+      form_->set_held_modes({}); // they are over the unknowns that there were
+    contacts_.rebuild_pattern();
+  };
+  try
+  {
+    changed = model_.detect(state, reaches, true);
+  }
+  catch (const NumericalFailure &)
+  {
+    take_over();
+    throw;
+  }
+  if (changed)
+    take_over();
+  return changed;
 }
 
 /// Of the right side's forces. As far as the residual that the change of statuses and the bodies' nonlinearity will
@@ -129,7 +149,7 @@ std::vector<double> Newton::solve_linear(const Evaluation &at, double tolerance)
 
 bool Newton::runs_away(const Evaluation &from, const Evaluation &next) const
 {
-  if (model_.bodies().tangent_is_constant() || from.pending_motion > 0)
+  if (model_.tangent_is_constant() || from.pending_motion > 0)
     return false;
   const bool plastic_only = model_.small_strain() && next.signature == from.signature;
   return next.norm > (plastic_only ? 1 : allowed_growth) * from.norm;
@@ -154,8 +174,12 @@ Newton::Iterate Newton::step_from(const Iterate &from, const State &start, doubl
 void Newton::set_trial(const State &trial, const State &start)
 {
   const std::vector<double> now = model_.with_halo(trial.displacement), then = model_.with_halo(start.displacement);
-  for (ContactInterface &contact : model_.contacts())
-    contact.set_trial(now, then);
+  agree_on_failures(model_.nodes(),
+                    [&]
+                    {
+                      for (ContactInterface &contact : model_.contacts())
+                        contact.set_trial(now, then);
+                    });
 }
 
 void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome)
@@ -199,7 +223,7 @@ void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcom
     last_norm = now.at.pending_motion > 0 ? next.at.norm : now.at.norm;
     if (now.at.pending_motion == 0 && next.at.norm > progress * now.at.norm)
       forcing *= tightening;
-    settled = model_.bodies().tangent_is_constant() && report.n_status_changes <= few_changes * report.n_active;
+    settled = model_.tangent_is_constant() && report.n_status_changes <= few_changes * report.n_active;
     now = std::move(next);
     if (n_cycles > max_cycles)
       throw NumericalFailure("statuses or faces turn in a circle" +

@@ -74,7 +74,6 @@ private:
   void update_rigid_blocks(const State &state, std::span<const double> contact_force);
   [[nodiscard]] std::string face_remark() const;
   [[nodiscard]] std::string remark(const Evaluation &now, std::span<const ContactStatus> before);
-  [[nodiscard]] bool is_first_of_most(int count, std::size_t contact, GlobalIndex node, int least) const;
 
   Model &model_;
   Counters &counters_;

@@ -16,42 +16,29 @@ const char *name(ContactStatus status)
 }
 } // namespace
 
-/// Whether the node of this process is the one of all that has counted most, of equal ones that of the lowest contact
-/// and id, and at least so much. Collective. @param node -1: this process has none
-bool Newton::is_first_of_most(int count, std::size_t contact, GlobalIndex node, int least) const
-{
-  const Sharing &processes = model_.nodes();
-  const double most = processes.maximum_over_processes(node < 0 ? 0 : count);
-  if (most < least)
-    return false;
-  const double place =
-      static_cast<double>(contact) * static_cast<double>(model_.mesh().n_global_nodes) + static_cast<double>(node);
-  const bool is_candidate = node >= 0 && count == most;
-  const double first = -processes.maximum_over_processes(is_candidate ? -place : -HUGE_VAL);
-  return is_candidate && place == first;
-}
-
 /// The node whose status has turned most often within the increment, if one that turned just now did often.
 std::string Newton::remark(const Evaluation &now, std::span<const ContactStatus> before)
 {
   int most = 0;
-  std::size_t worst = 0, worst_contact = 0, k = 0;
-  GlobalIndex id = -1;
+  std::size_t worst = 0, k = 0;
+  double place = 0;
+  Index node = -1;
   for (std::size_t c = 0; c < model_.contacts().size(); ++c)
     for (Index i = 0; i < model_.contacts()[c].n_nodes(); ++i, ++k)
       if (now.status[k] != before[k] && ++n_flips_[k] > most)
       {
         most = n_flips_[k];
         worst = k;
-        worst_contact = c;
-        id = model_.contacts()[c].impactor().node_ids[i];
+        place = model_.place_of(c, i);
+        node = model_.contacts()[c].node(i);
       }
   const auto text = [&]
   {
-    return "node " + std::to_string(model_.mesh().node_tags[model_.position(id)]) + " " + name(before[worst]) + "<->" +
+    return "node " + std::to_string(model_.mesh().node_tags[node]) + " " + name(before[worst]) + "<->" +
            name(now.status[worst]) + ", change " + std::to_string(most);
   };
-  const std::string told = told_by_one(model_.nodes(), is_first_of_most(most, worst_contact, id, named_flips), text);
+  const bool is_worst = is_greatest(model_.nodes(), most < named_flips ? no_candidate : most, place);
+  const std::string told = told_by_one(model_.nodes(), is_worst, text);
   return told.empty() ? face_remark() : told;
 }
 
@@ -59,22 +46,23 @@ std::string Newton::remark(const Evaluation &now, std::span<const ContactStatus>
 std::string Newton::face_remark() const
 {
   int most = 0;
-  std::size_t worst_contact = 0;
-  GlobalIndex id = -1;
+  double place = 0;
+  Index node = -1;
   for (std::size_t c = 0; c < model_.contacts().size(); ++c)
     for (Index i = 0; i < model_.contacts()[c].n_nodes(); ++i)
       if (const ContactInterface &contact = model_.contacts()[c]; contact.n_face_changes(i) > most)
       {
         most = contact.n_face_changes(i);
-        worst_contact = c;
-        id = contact.impactor().node_ids[i];
+        place = model_.place_of(c, i);
+        node = contact.node(i);
       }
   const auto text = [&]
   {
-    return "node " + std::to_string(model_.mesh().node_tags[model_.position(id)]) + " goes to another face, change " +
+    return "node " + std::to_string(model_.mesh().node_tags[node]) + " goes to another face, change " +
            std::to_string(most);
   };
-  return told_by_one(model_.nodes(), is_first_of_most(most, worst_contact, id, named_flips), text);
+  return told_by_one(model_.nodes(), is_greatest(model_.nodes(), most < named_flips ? no_candidate : most, place),
+                     text);
 }
 
 IterationReport Newton::compare(const Iterate &before, const Iterate &after)

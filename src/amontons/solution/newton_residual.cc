@@ -44,7 +44,7 @@ void Newton::prepare_matrix(const State &state, double time)
   const auto scope = timers_.measure("bulk_assembly");
   model_.update_layout(state);
   bool fresh = form_->prepare();
-  if (!tangent_assembled_ || !model_.bodies().tangent_is_constant())
+  if (!tangent_assembled_ || !model_.tangent_is_constant())
   {
     if (!model_.nodes().true_on_all(model_.bodies().assemble_tangent(model_.mesh_part(state.displacement), time)))
       throw NumericalFailure("a cell turned inside out");

@@ -1,5 +1,7 @@
 #include "amontons/solution/predictor.h"
 
+#include "amontons/algebra/linear_solver_failure.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -146,18 +148,18 @@ State Predictor::approach(const State &now, double to) const
 std::vector<std::pair<int, Index>> Predictor::touching(const State &now, const State &approach)
 {
   std::vector<std::pair<int, Index>> out;
-  std::vector<ContactInterface> &contacts = model_.contacts();
   const std::vector<double> before = model_.with_halo(now.displacement),
                             after = model_.with_halo(approach.displacement);
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    for (Index i = 0; i < contacts[c].n_nodes(); ++i)
-    {
-      if (!contacts[c].paired(i) || contacts[c].options().tied)
-        continue;
-      const double start = contacts[c].gap(i, before);
-      if (start > 0 && contacts[c].gap(i, after) < 0)
-        out.emplace_back(static_cast<int>(c), i);
-    }
+  const auto closes = [&](const ContactInterface &contact, Index i)
+  { return contact.paired(i) && !contact.options().tied && contact.gap(i, before) > 0 && contact.gap(i, after) < 0; };
+  agree_on_failures(model_.nodes(),
+                    [&]
+                    {
+                      for (std::size_t c = 0; c < model_.contacts().size(); ++c)
+                        for (Index i = 0; i < model_.contacts()[c].n_nodes(); ++i)
+                          if (closes(model_.contacts()[c], i))
+                            out.emplace_back(static_cast<int>(c), i);
+                    });
   return out;
 }
 } // namespace amontons

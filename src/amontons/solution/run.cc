@@ -1,5 +1,6 @@
 #include "amontons/solution/run.h"
 
+#include "amontons/algebra/linear_solver_failure.h"
 #include "amontons/base/error.h"
 #include "amontons/parallel/agreement.h"
 #include "amontons/solution/form_choice.h"
@@ -251,8 +252,14 @@ private:
     const State &start = increment_ > 0 ? start_ : state_;
     const std::vector<double> now = model_->with_halo(state_.displacement),
                               then = model_->with_halo(start.displacement);
-    for (ContactInterface &contact : model_->contacts())
-      complete(out.contacts.emplace_back(contact.result(now, then, state_.multipliers)), contact.surfaces().sharing);
+    agree_on_failures(model_->nodes(),
+                      [&]
+                      {
+                        for (ContactInterface &contact : model_->contacts())
+                          out.contacts.push_back(contact.result(now, then, state_.multipliers));
+                      });
+    for (std::size_t c = 0; c < out.contacts.size(); ++c)
+      complete(out.contacts[c], model_->contacts()[c].surfaces().sharing);
     out.reactions = std::move(reactions);
     return out;
   }

@@ -110,8 +110,12 @@ void detect_first(Model &model, State &state)
   }
   (void)model.detect(state, reaches, false);
   const std::vector<double> displacement = model.with_halo(state.displacement);
-  for (ContactInterface &contact : model.contacts())
-    contact.set_initial_gap(displacement);
+  agree_on_failures(model.nodes(),
+                    [&]
+                    {
+                      for (ContactInterface &contact : model.contacts())
+                        contact.set_initial_gap(displacement);
+                    });
 }
 
 namespace
@@ -130,9 +134,7 @@ FirstPairs together(const DetectionReport &report, const Sharing &processes)
   processes.sum_over_processes(sums);
   FirstPairs out{sums[0], sums[1]};
   out.deepest = -processes.maximum_over_processes(report.deepest_node < 0 ? 0 : -report.deepest);
-  const bool is_candidate = report.deepest_node >= 0 && report.deepest == out.deepest;
-  const double rank = -processes.maximum_over_processes(is_candidate ? -processes.rank() : -processes.n_processes());
-  out.is_here = is_candidate && rank == processes.rank();
+  out.is_here = is_greatest(processes, report.deepest_node < 0 ? no_candidate : -report.deepest, processes.rank());
   return out;
 }
 
