@@ -308,24 +308,28 @@ TEST_P(DistributedContact, ABodyThatOnlyContactHolds)
   expect_as_alone(problem);
 }
 
-/// A block in a corner: one of its nodes is in both contacts. The wall is rigid, meshed, and the impactor.
-TEST_P(DistributedContact, ACornerWithARigidImpactor)
+/// A block in a corner, one of its nodes in two contacts, pressed by a rigid lid that is an impactor.
+TEST_P(DistributedContact, ACornerUnderARigidImpactor)
 {
   Blocks mesh(2);
   mesh.add("floor", {-1, -1, 0}, {3, 1, 0}, {11, 4, 0});
-  mesh.add("wall", {-0.5, 0.1, 0}, {0.5, 0.8, 0}, {1, 3, 0});
+  mesh.add("wall", {-0.5, -0.05, 0}, {0.5, 1.3, 0}, {2, 5, 0});
   mesh.add("box", {0, 0, 0}, {1, 1, 0}, {6, 6, 0});
+  mesh.add("lid", {0.1, 1, 0}, {0.7, 0.2, 0}, {4, 1, 0});
   Problem problem(mesh, Kinematics::plane_strain);
   problem.elastic("floor", 10);
+  problem.elastic("wall", 5);
   problem.elastic("box", 3, 0.2);
-  problem.rigid("wall");
+  problem.rigid("lid");
   problem.on("floor_bottom").fix = {0, 1};
-  problem.on("wall").fix = {0, 1};
-  problem.on("wall").rotation = {{2, expression(0)}};
-  problem.on("box_top").displacement = {{0, expression("-0.02 * t")}, {1, expression("-0.03 * t")}};
+  problem.on("wall_left").fix = {0, 1};
+  problem.on("box_right").displacement[0] = expression("-0.02 * t");
+  BoundaryOptions &lid = problem.on("lid");
+  lid.displacement = {{0, expression(0)}, {1, expression("-0.03 * t")}};
+  lid.rotation[2] = expression("-0.01 * t");
   problem.contact("box_bottom", "floor_top", 0.3);
-  problem.contact("wall_right", "box_left", 0.1);
-  problem.contact("box_left", "floor_top");
+  problem.contact("box_left", "wall_right", 0.1);
+  problem.contact("lid_bottom", "box_top");
   problem.options.loading.increments = 3;
   expect_as_alone(problem);
 }
