@@ -32,16 +32,19 @@ class DistributedRun : public testing::TestWithParam<Solver>
 {
 protected:
   /// The same iterations, statuses and, to the solvers' tolerance, forces.
-  static void expect_as_alone(Problem &problem)
+  /// @param cuts whether increments are cut, and grow again
+  static void expect_as_alone(Problem &problem, bool cuts = false)
   {
     problem.options.solver.linear = GetParam().linear;
     problem.options.solver.multipliers = GetParam().form;
     problem.options.solver.tolerance = 1e-11;
-    problem.options.loading.fixed = true;
+    problem.options.loading.fixed = !cuts;
     const Record alone = problem.solve(), spread = problem.solve(world);
     ASSERT_TRUE(alone.result.converged) << alone.result.failure;
     ASSERT_TRUE(spread.result.converged) << spread.result.failure;
     EXPECT_EQ(spread.n_dofs, alone.n_dofs);
+    EXPECT_EQ(spread.attempts.size(), alone.attempts.size());
+    EXPECT_EQ(alone.attempts.size() > alone.iterations().size(), cuts);
     // What an iteration leaves of its linear system, within its tolerance, hangs on the processes: multigrid's levels
     // do.
     const int allowed = GetParam().linear == LinearSolverType::direct ? 0 : 1;
@@ -332,6 +335,15 @@ TEST_P(DistributedContact, ACornerUnderARigidImpactor)
   problem.contact("lid_bottom", "box_top");
   problem.options.loading.increments = 3;
   expect_as_alone(problem);
+}
+
+/// Pairs that a failed attempt had changed are put back, whatever halo it asked for.
+TEST_P(DistributedContact, IncrementsThatAreCut)
+{
+  Problem problem = sliding_block();
+  problem.options.solver.max_iterations = 5;
+  problem.options.loading.increments = 4;
+  expect_as_alone(problem, true);
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, DistributedContact,

@@ -12,7 +12,7 @@ namespace
 constexpr double default_tolerance = 1e-10;
 /// What one round in single precision can gain at the most.
 constexpr double round_reduction = 1e-5;
-constexpr int max_rounds = 12, max_idle_rounds = 3;
+constexpr int max_rounds = 20, max_idle_rounds = 3;
 /// Rounds that gain less than this have come to round-off, which may be this part of the right side.
 constexpr double least_gain = 0.5, allowed_round_off = 1e-6;
 /// By how much at most a round that gained nothing makes the next one's target smaller.
@@ -328,7 +328,8 @@ void FetiForm::solve(std::span<const double> rhs, std::span<double> solution, do
     if (stagnates)
       target *= std::max(0.3 * limit / left.norm, sharper);
     n_idle += stagnates;
-    if (round == max_rounds || n_idle > max_idle_rounds || !std::isfinite(left.norm))
+    const bool gives_up = left.norm > limit && (round == max_rounds || n_idle > max_idle_rounds);
+    if (gives_up || !std::isfinite(left.norm))
       throw LinearSolverFailure("the iteration over the subdomains does not converge");
     before = left.norm;
   }
