@@ -56,5 +56,21 @@ TEST(DirectSolver, SolvesAndSaysWhatIsSingular)
   EXPECT_NEAR(x[0], 68. / 28, 1e-14);
   EXPECT_NEAR(x[1], -64. / 28, 1e-14);
 }
+
+/// A body on a spring far softer than itself: what is left is the round-off of forces that are far greater than the
+/// load.
+TEST(DirectSolver, WeakRestraintsAreNoSingularity)
+{
+  constexpr double spring = 1e-13;
+  Small small;
+  const auto solver = make_direct_solver();
+  solver->set_matrix(small.matrix, small.blocks);
+  small.set({1 + spring, -1, -1, 1, 0});
+  solver->factorize();
+  std::vector<double> x(2);
+  solver->solve(std::vector<double>{10, 14}, x, 0);
+  EXPECT_NEAR(x[0] * spring / 24, 1, 0.01); // 1 + 1e-13 is known to a thousandth of the spring
+  EXPECT_NEAR(x[1] / x[0], 1, 1e-12);
+}
 } // namespace
 } // namespace amontons

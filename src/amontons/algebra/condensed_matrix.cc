@@ -59,7 +59,9 @@ bool CondensedMatrix::update(const ConstraintElimination &elimination, bool ever
 {
   if (everything)
     find_mean_diagonal();
-  const bool grown = extend_fill(elimination), rebuild = !layout_.sharing().true_on_all(pattern_stands_ && !grown);
+  // Foreign blocks may be there that an elimination took in and that then failed.
+  const bool grown = extend_fill(elimination) || blocks_.n_blocks() != blocks_.sharing().size();
+  const bool rebuild = !layout_.sharing().true_on_all(pattern_stands_ && !grown);
   if (rebuild)
     blocks_.share_foreign();
   agree_on_failures(layout_.sharing(),

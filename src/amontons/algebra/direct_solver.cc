@@ -9,6 +9,9 @@ namespace
 /// Residual, over the right side, with which equations of a singular matrix count as free of contradiction; and from
 /// which a solution is none: round-off can hide that the matrix is singular, a pivot of 1e-16 in the place of zero.
 constexpr double contradiction = 1e-9, no_solution = 1e-3;
+/// A residual that is this part of the matrix's norm times the solution's is round-off, unless those are beyond what
+/// double precision tells from a singular matrix, over the right side.
+constexpr double lost = 1e-12, most_resisted = 1e15;
 
 /// Room beyond what the analysis foresees, per cent.
 constexpr PetscInt least_workspace = 50, most_workspace = 3200;
@@ -108,7 +111,8 @@ private:
     check_petsc(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, 1 + refinements), "refinement");
   }
 
-  /// Unknowns of null pivots were set to zero: right if the equations do not contradict each other.
+  /// Unknowns of null pivots were set to zero: right if the equations do not contradict each other. Where no pivot was
+  /// null a residual may be no more than what is lost to round-off in a nearly singular matrix.
   void check_residual() const
   {
     const VecHandle residual = matrix_.make_vector();
@@ -117,8 +121,18 @@ private:
     check_petsc(VecAYPX(residual.get(), -1, matrix_.rhs()), "residual");
     check_petsc(VecNorm(residual.get(), NORM_2, &left), "residual");
     check_petsc(VecNorm(matrix_.rhs(), NORM_2, &size), "residual");
-    if (!(left <= (n_null_pivots_ > 0 ? contradiction : no_solution) * size))
+    const bool solves = left <= (n_null_pivots_ > 0 ? contradiction : no_solution) * size;
+    if (!solves && (n_null_pivots_ > 0 || !is_round_off(left, size)))
       throw NumericalFailure("the tangent matrix is singular");
+  }
+
+  [[nodiscard]] bool is_round_off(double left, double size) const
+  {
+    double largest = 0, length = 0;
+    check_petsc(MatNorm(matrix_.get(), NORM_INFINITY, &largest), "residual");
+    check_petsc(VecNorm(matrix_.solution(), NORM_2, &length), "residual");
+    const double resisted = largest * length;
+    return left <= lost * resisted && resisted <= most_resisted * size;
   }
 
   static PetscInt count_null_pivots(PC pc)

@@ -64,17 +64,24 @@ Newton::Newton(Model &model, LinearSolverType linear, Counters &counters, Timers
 
 Newton::~Newton() = default;
 
-void Newton::begin_increment(const State &state, double reach)
+void Newton::begin_increment(const State &start)
 {
-  reach_ = reach;
   bool restored = false;
-  const std::vector<double> displacement = model_.with_halo(state.displacement);
-  agree_on_failures(model_.nodes(),
-                    [&]
-                    {
-                      for (ContactInterface &contact : model_.contacts())
-                        restored |= contact.begin_increment(displacement);
-                    });
+  const std::vector<double> displacement = model_.with_halo(start.displacement);
+  try
+  {
+    agree_on_failures(model_.nodes(),
+                      [&]
+                      {
+                        for (ContactInterface &contact : model_.contacts())
+                          restored |= contact.begin_increment(displacement);
+                      });
+  }
+  catch (const NumericalFailure &)
+  {
+    contacts_.rebuild_pattern(); // some pairs may be back by now
+    throw;
+  }
   if (!model_.nodes().true_on_all(!restored))
     contacts_.rebuild_pattern();
 }
@@ -278,8 +285,9 @@ void Newton::attempt(State &state, const State &start, double to, const State *g
   state = std::move(now.state);
 }
 
-NewtonOutcome Newton::solve(State &state, double from, double to)
+NewtonOutcome Newton::solve(State &state, double from, double to, double reach)
 {
+  reach_ = reach;
   NewtonOutcome outcome;
   const State start = state;
   const std::optional<State> guess = predictor_.guess(start, from, to);
@@ -289,11 +297,9 @@ NewtonOutcome Newton::solve(State &state, double from, double to)
   if (guess)
     beginnings.insert(model_.small_strain() || !model_.has_friction() ? beginnings.begin() : beginnings.end(), &*guess);
   for (const State *beginning : beginnings)
-  {
-    if (beginning != beginnings.front())
-      begin_increment(start, reach_);
     try
     {
+      begin_increment(start);
       attempt(state, start, to, beginning, outcome);
       predictor_.set_last(LastIncrement{start, from, to});
       break;
@@ -303,7 +309,6 @@ NewtonOutcome Newton::solve(State &state, double from, double to)
       outcome.cause = failure.what();
       outcome.linear_solver_failed |= dynamic_cast<const LinearSolverFailure *>(&failure) != nullptr;
     }
-  }
   return outcome;
 }
 } // namespace amontons

@@ -35,7 +35,8 @@ public:
   ~Newton();
 
   /// Moves `state` from its equilibrium at time `from` to the one at `to`. On failure `state` is left as it was.
-  NewtonOutcome solve(State &state, double from, double to);
+  /// @param reach see Detector
+  NewtonOutcome solve(State &state, double from, double to, double reach);
 
   /// Residual at a converged state, nodal: reactions at held components. [n_nodal]
   [[nodiscard]] const std::vector<double> &residual() const { return residual_; }
@@ -44,15 +45,14 @@ public:
   [[nodiscard]] const std::optional<LastIncrement> &last_increment() const { return predictor_.last(); }
   void set_last_increment(std::optional<LastIncrement> last) { predictor_.set_last(std::move(last)); }
 
-  /// Called before each solve() of an increment: searches faces and starts the slip. @param reach see Detector
-  void begin_increment(const State &state, double reach);
-
 private:
   struct Evaluation;
   struct Iterate;
   [[nodiscard]] Evaluation evaluate(const State &state, const State &start, double time,
                                     std::span<const std::pair<int, Index>> forced, bool first);
   void compute_residual(Evaluation &out, const State &state, double time, const ContactContribution &contact) const;
+  /// Puts back what a failed attempt left, and starts the slip.
+  void begin_increment(const State &start);
   bool detect(State &state);
   void prepare_matrix(const State &state, double time);
   [[nodiscard]] std::vector<double> solve_linear(const Evaluation &at, double tolerance);

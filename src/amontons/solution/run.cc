@@ -81,8 +81,7 @@ public:
       const double length = to - time_;
       tell(&Observer::begin_increment, increment_ + 1, to, length);
       State next = state_;
-      newton_->begin_increment(next, reach(time_, to));
-      const NewtonOutcome outcome = newton_->solve(next, time_, to);
+      const NewtonOutcome outcome = newton_->solve(next, time_, to, reach(time_, to));
       const IncrementReport report{to, length, outcome.n_iterations, outcome.n_linear_iterations, cutbacks};
       if (!outcome.converged)
       {

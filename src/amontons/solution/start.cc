@@ -125,16 +125,20 @@ struct FirstPairs
 {
   double n_pairs, n_penetrations;
   double deepest = 0;
-  bool is_here = false; ///< the deepest node: of equally deep ones that of the lowest process
+  bool is_here = false; ///< the deepest node: of equally deep ones the first in the mesh
 };
 
-FirstPairs together(const DetectionReport &report, const Sharing &processes)
+FirstPairs together(const Model &model, std::size_t contact)
 {
+  const DetectionReport report = model.detection_report(contact);
+  const Sharing &processes = model.nodes();
   std::array<double, 2> sums{static_cast<double>(report.n_pairs), static_cast<double>(report.n_penetrations)};
   processes.sum_over_processes(sums);
   FirstPairs out{sums[0], sums[1]};
   out.deepest = -processes.maximum_over_processes(report.deepest_node < 0 ? 0 : -report.deepest);
-  out.is_here = is_greatest(processes, report.deepest_node < 0 ? no_candidate : -report.deepest, processes.rank());
+  const bool has_one = report.deepest_node >= 0;
+  out.is_here = is_greatest(processes, has_one ? -report.deepest : no_candidate,
+                            has_one ? model.place_of(contact, report.deepest_node) : 0);
   return out;
 }
 
@@ -161,7 +165,7 @@ std::vector<std::string> initial_warnings(const Model &model)
   for (std::size_t c = 0; c < model.contacts().size(); ++c)
   {
     const ContactInterface &contact = model.contacts()[c];
-    const FirstPairs found = together(model.detection_report(c), processes);
+    const FirstPairs found = together(model, c);
     const bool may_meet_later = contact.options().is_self_contact() && !model.small_strain();
     if (found.n_pairs == 0 && !may_meet_later)
       out.push_back("contact '" + contact.options().name + "': no node of the impactor finds the target");
