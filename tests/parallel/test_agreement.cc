@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 namespace amontons
 {
 namespace
@@ -78,6 +80,19 @@ TEST_F(Agreement, BroadcastsText)
   const std::string mine = "from rank " + std::to_string(world_.rank());
   EXPECT_EQ(world_.broadcast(mine, 2), "from rank 2");
   EXPECT_EQ(world_.broadcast(world_.rank() == 0 ? "" : mine, 0), "");
+}
+
+TEST_F(Agreement, OneOfAllIsTheGreatestAndTells)
+{
+  const Sharing processes(std::make_shared<MessageExchange>(world_), "test", std::vector<GlobalIndex>{world_.rank()});
+  const auto winner = [&](double value, double place) {
+    return told_by_one(processes, is_greatest(processes, value, place), [&] { return std::to_string(world_.rank()); });
+  };
+  const int rank = world_.rank();
+  EXPECT_EQ(winner(-std::abs(rank - 1), 0), "1");
+  EXPECT_EQ(winner(rank == 0 ? 4 : 5, 10 - rank), "2") << "of equal ones that of the lowest place";
+  EXPECT_EQ(winner(rank == 0 ? -7 : no_candidate, rank), "0");
+  EXPECT_EQ(winner(no_candidate, rank), "");
 }
 } // namespace
 } // namespace amontons

@@ -1,5 +1,6 @@
 #include "amontons/bulk/mesh_distribution.h"
 
+#include "amontons/bulk/surface_extraction.h"
 #include "amontons/parallel/archive.h"
 
 #include <algorithm>
@@ -186,27 +187,11 @@ private:
   /// These faces of a surface, and all its nodes that the part has.
   [[nodiscard]] Surface share(const Surface &surface, std::span<const Index> faces) const
   {
-    Surface out;
-    out.dim = surface.dim;
-    std::vector<Index> local(static_cast<std::size_t>(surface.n_nodes()), -1);
+    std::vector<Index> nodes;
     for (Index i = 0; i < surface.n_nodes(); ++i)
       if (position_[surface.node_ids[i]] >= 0)
-      {
-        local[i] = out.n_nodes();
-        out.node_ids.push_back(surface.node_ids[i]);
-        const auto x = surface.reference.begin() + static_cast<std::ptrdiff_t>(i) * surface.dim;
-        out.reference.insert(out.reference.end(), x, x + surface.dim);
-      }
-    for (const Index f : faces)
-    {
-      for (const Index node : surface.face(f))
-        out.face_nodes.push_back(local[node]);
-      out.face_offsets.push_back(static_cast<Index>(out.face_nodes.size()));
-      out.face_ids.push_back(surface.face_ids[f]);
-      if (!surface.face_bodies.empty())
-        out.face_bodies.push_back(surface.face_bodies[f]);
-    }
-    return out;
+        nodes.push_back(i);
+    return share_of_surface(surface, nodes, faces);
   }
 
   void take_nodes(Rank rank, Mesh &out)

@@ -193,6 +193,30 @@ std::vector<Index> bodies_of_faces(const Mesh &mesh, const Surface &surface)
   return bodies;
 }
 
+Surface share_of_surface(const Surface &surface, std::span<const Index> nodes, std::span<const Index> faces)
+{
+  Surface out;
+  out.dim = surface.dim;
+  std::vector<Index> place(static_cast<std::size_t>(surface.n_nodes()), -1);
+  for (const Index node : nodes)
+  {
+    place[node] = out.n_nodes();
+    out.node_ids.push_back(surface.node_ids[node]);
+    const auto x = surface.reference.begin() + static_cast<std::ptrdiff_t>(node) * surface.dim;
+    out.reference.insert(out.reference.end(), x, x + surface.dim);
+  }
+  for (const Index f : faces)
+  {
+    for (const Index node : surface.face(f))
+      out.face_nodes.push_back(place[node]);
+    out.face_offsets.push_back(static_cast<Index>(out.face_nodes.size()));
+    out.face_ids.push_back(surface.face_ids[f]);
+    if (!surface.face_bodies.empty())
+      out.face_bodies.push_back(surface.face_bodies[f]);
+  }
+  return out;
+}
+
 void check_not_welded(const Mesh &mesh, const Surface &impactor, const Surface &target,
                       const std::string &impactor_name, const std::string &target_name, const SourceLocation &where)
 {

@@ -25,6 +25,10 @@ std::vector<FacetOwner> facet_owners(const Mesh &mesh, const Group &group);
 /// smallest node. [n_faces] @param surface as from extract_surface()
 std::vector<Index> bodies_of_faces(const Mesh &mesh, const Surface &surface);
 
+/// Some nodes and faces of a surface, numbered in this order; without adjacency.
+/// @param nodes all nodes of these faces among them
+Surface share_of_surface(const Surface &surface, std::span<const Index> nodes, std::span<const Index> faces);
+
 /// Bodies must meet by contact, not by common nodes.
 /// @param impactor, target as from extract_surface(), named in the message
 /// @throws UserError where they share a node

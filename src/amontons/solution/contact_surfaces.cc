@@ -3,6 +3,7 @@
 #include "amontons/bulk/surface_extraction.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace amontons
 {
@@ -36,19 +37,9 @@ Surface own_first(const Surface &surface, const std::vector<char> &is_own)
   for (Index i = 0; i < surface.n_nodes(); ++i)
     if (is_own[i] == 0 && !surface.faces_of_node(i).empty())
       order.push_back(i);
-  Surface out = surface;
-  out.node_ids.clear();
-  out.reference.clear();
-  std::vector<Index> place(is_own.size(), -1);
-  for (const Index i : order)
-  {
-    place[i] = out.n_nodes();
-    out.node_ids.push_back(surface.node_ids[i]);
-    const auto x = surface.reference.begin() + static_cast<std::ptrdiff_t>(i) * surface.dim;
-    out.reference.insert(out.reference.end(), x, x + surface.dim);
-  }
-  for (Index &node : out.face_nodes)
-    node = place[node];
+  std::vector<Index> faces(static_cast<std::size_t>(surface.n_faces()));
+  std::iota(faces.begin(), faces.end(), 0);
+  Surface out = share_of_surface(surface, order, faces);
   out.build_adjacency();
   return out;
 }

@@ -85,6 +85,7 @@ void Model::build_search()
 
 bool Model::detect(State &state, std::span<const double> reaches, bool keep)
 {
+  AMONTONS_ASSERT(search_ != nullptr); // in small strain it is given up once it has found the pairs
   const std::vector<double> before = with_halo(state.displacement);
   search_->search(before, reaches, small_strain());
   bool changed = false;
