@@ -43,6 +43,23 @@ ContactLinearisation linearise_mean(int dim, const Eigen::Vector3d &normal, std:
                                     std::span<const double> reference_targets, std::span<const double> weights,
                                     std::span<const double> displacement, std::span<const double> slip_origin);
 
+/// Finite sliding against a weighted mean of target nodes (contact/mortar.h): g_n = n . (x_0 - sum w_k x_k), and the
+/// slip over the increment is the chord between two points of the target as it is now, g_t,c = e_c . sum_k (w_k - w0_k)
+/// x_k (Yang, Laursen, Meng 2005, IJNME 62; Gitterle, Popp, Gee, Wall 2010, IJNME 84), w0 a datum: frame indifferent.
+/// Dofs: the impactors, then the targets. Forces act along n (e_c) on x_0 and along -w_k n (-w_k e_c) on the targets;
+/// the gradients of gap and slip are whole, those of n, e_c and w included.
+/// @param normal n, unit @param normal_gradient [dim x dim * n_impactors]
+/// @param impactors positions of the node itself, then of those its normal and weights depend on, [n_impactors * dim]
+/// @param targets positions, [n_targets * dim]
+/// @param weights w, [n_targets], their sum 1 @param weight_gradient [n_targets x dim * (n_impactors + n_targets)]
+/// @param origin_weights w0, where the slip started, on the same targets, [n_targets], their sum 1
+/// @param along in 3D e_1 is the part normal to n of impactors[along] - impactors[0]; in the plane (-n_y, n_x)
+/// @throws NumericalFailure if that part vanishes
+ContactLinearisation linearise_mortar(int dim, const Eigen::Vector3d &normal, const Eigen::MatrixXd &normal_gradient,
+                                      std::span<const double> impactors, std::span<const double> targets,
+                                      std::span<const double> weights, const Eigen::MatrixXd &weight_gradient,
+                                      std::span<const double> origin_weights, int along);
+
 /// Analytic rigid target that translates with its point (Shape::point).
 /// Dofs: impactor, then the shape's point. `slip_origin` is a position at tau, `shape_point_at_start` the point's then.
 /// Slip: the chord from where the slip started to where the node is, both relative to the shape's point, projected on

@@ -1,5 +1,6 @@
 #include "amontons/contact/mortar.h"
 
+#include "amontons/base/error.h"
 #include "amontons/surface/normals.h"
 #include "amontons/surface/segmentation.h"
 
@@ -223,8 +224,10 @@ private:
 } // namespace
 
 MortarCoupling couple_mortar(const PlacedSurface &impactor, const PlacedSurface &target, bool axisymmetric, double w,
-                             const FacesInBox &faces_in_box)
+                             const FacesInBox &faces_in_box, const MortarScope &scope)
 {
+  if (scope.gradients || !scope.nodes.empty())
+    throw InternalError("a coupling of some nodes, or with gradients, is not there yet");
   return Integration(impactor, target, axisymmetric, w).run(faces_in_box);
 }
 } // namespace amontons
