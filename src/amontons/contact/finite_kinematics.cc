@@ -1,7 +1,7 @@
 #include "amontons/base/error.h"
-#include "amontons/contact/dual.h"
 #include "amontons/contact/face.h"
 #include "amontons/contact/kinematics.h"
+#include "amontons/surface/dual.h"
 
 #include <algorithm>
 
@@ -29,10 +29,6 @@ Metric<Scalar, n_xi> inverse(const Metric<Scalar, n_xi> &a)
 template<int dim, int n_nodes>
 using LocalNormals = std::array<Point<double, dim>, n_nodes>;
 
-inline double value_of(double x)
-{
-  return x;
-}
 template<class Scalar, int dim, int n_nodes>
 Frame<Scalar, dim> central_frame(const FaceNodes<Scalar, dim, n_nodes> &face)
 {

@@ -1,7 +1,7 @@
 #include "amontons/base/error.h"
-#include "amontons/contact/dual.h"
 #include "amontons/contact/face.h"
 #include "amontons/contact/kinematics.h"
+#include "amontons/surface/dual.h"
 
 #include <cmath>
 

@@ -1,6 +1,8 @@
 #pragma once
 #include "amontons/surface/surface.h"
 
+#include <Eigen/Core>
+
 #include <span>
 #include <vector>
 
@@ -12,4 +14,15 @@ namespace amontons
 /// @param x coordinates, [n_nodes * dim] @param sharp_angle between the normals of two faces, radians
 /// @return [face_nodes.size() * dim], in the order of Surface::face_nodes
 std::vector<double> smoothed_normals(const Surface &surface, std::span<const double> x, double sharp_angle);
+
+/// How one of these normals turns: [dim x dim * nodes.size()], its columns in the order of the nodes.
+struct NormalGradient
+{
+  std::vector<Index> nodes;
+  Eigen::MatrixXd gradient;
+};
+
+/// Of the normal at place `corner` of Surface::face_nodes, a corner of face f. Which faces are averaged is a datum.
+NormalGradient smoothed_normal_gradient(const Surface &surface, std::span<const double> x, double sharp_angle, Index f,
+                                        Index corner);
 } // namespace amontons

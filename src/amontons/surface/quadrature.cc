@@ -41,18 +41,39 @@ std::vector<GaussPoint> make_rule(int n)
   }
   return out;
 }
-} // namespace
 
-const std::vector<GaussPoint> &gauss_rule(int n)
+std::vector<TrianglePoint> make_triangle_rule(int n)
 {
-  static const auto rules = []
+  std::vector<TrianglePoint> out;
+  for (const GaussPoint &u : gauss_rule(n))
+    for (const GaussPoint &v : gauss_rule(n))
+      out.push_back({{1 - u.x, u.x * (1 - v.x), u.x * v.x}, u.weight * v.weight * u.x});
+  return out;
+}
+
+/// The rule for each n, made once.
+template<class Rule>
+const Rule &rule_of(int n, Rule (*make)(int))
+{
+  static const auto rules = [make]
   {
-    std::array<std::vector<GaussPoint>, most_points + 1> out;
+    std::array<Rule, most_points + 1> out;
     for (int k = 1; k <= most_points; ++k)
-      out[k] = make_rule(k);
+      out[k] = make(k);
     return out;
   }();
   AMONTONS_ASSERT(n >= 1 && n <= most_points);
   return rules[n];
+}
+} // namespace
+
+const std::vector<GaussPoint> &gauss_rule(int n)
+{
+  return rule_of(n, make_rule);
+}
+
+const std::vector<TrianglePoint> &triangle_rule(int n)
+{
+  return rule_of(n, make_triangle_rule);
 }
 } // namespace amontons
