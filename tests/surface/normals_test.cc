@@ -1,5 +1,7 @@
 #include "amontons/surface/normals.h"
 
+#include "surfaces.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -86,6 +88,46 @@ TEST(SmoothedNormals, AreRadialOnASphere)
   EXPECT_NEAR(normals[0], 0, 1e-15);
   EXPECT_NEAR(normals[1], 0, 1e-15);
   EXPECT_NEAR(normals[2], 1, 1e-15);
+}
+
+void expect_gradients(const Surface &surface, double sharp_angle)
+{
+  constexpr double h = 1e-5;
+  const int dim = surface.dim;
+  for (Index f = 0; f < surface.n_faces(); ++f)
+    for (Index corner = surface.face_offsets[f]; corner < surface.face_offsets[f + 1]; ++corner)
+    {
+      const NormalGradient gradient = smoothed_normal_gradient(surface, surface.reference, sharp_angle, f, corner);
+      Eigen::MatrixXd found = Eigen::MatrixXd::Zero(dim, static_cast<Eigen::Index>(surface.reference.size()));
+      for (std::size_t i = 0; i < gradient.nodes.size(); ++i)
+        found.middleCols(dim * gradient.nodes[i], dim) =
+            gradient.gradient.middleCols(dim * static_cast<Eigen::Index>(i), dim);
+      for (std::size_t k = 0; k < surface.reference.size(); ++k)
+      {
+        std::vector<double> up = surface.reference, down = up;
+        up[k] += h;
+        down[k] -= h;
+        const auto above = smoothed_normals(surface, up, sharp_angle),
+                   below = smoothed_normals(surface, down, sharp_angle);
+        for (int c = 0; c < dim; ++c)
+          EXPECT_NEAR(found(c, static_cast<Eigen::Index>(k)),
+                      (above[corner * dim + c] - below[corner * dim + c]) / (2 * h), 1e-8);
+      }
+    }
+}
+
+TEST(SmoothedNormals, GradientsMatchDifferences)
+{
+  // Unequal segments with a corner among them, and a bent sheet with a sharp fold along its middle.
+  expect_gradients(polyline({0, 0, 1, 0.1, 1.5, 0.3, 1.6, 1, 1.5, 1.4}), 0.5);
+  for (const bool triangles : {false, true})
+    expect_gradients(
+        test::sheet(
+            2, 2, triangles,
+            [](double s, double t) {
+              return test::Point{s + 0.1 * t * t, t - 0.2 * s * t, 0.1 * s * s + std::abs(t - 0.5) + 0.05 * s * t};
+            }),
+        0.5);
 }
 } // namespace
 } // namespace amontons

@@ -141,9 +141,10 @@ private:
 
   void finish()
   {
-    std::sort(entries_.begin(), entries_.end(),
-              [](const Entry &a, const Entry &b)
-              { return std::pair(a.impactor, a.target) < std::pair(b.impactor, b.target); });
+    // Equal ones stay in the order of the faces, so that their sum depends on nothing else.
+    std::stable_sort(entries_.begin(), entries_.end(),
+                     [](const Entry &a, const Entry &b)
+                     { return std::pair(a.impactor, a.target) < std::pair(b.impactor, b.target); });
     std::size_t next = 0;
     for (Index j = 0; j < impactor_.surface.n_nodes(); ++j)
     {

@@ -109,6 +109,7 @@ struct FlatPolygon
 FlatPolygon shared_part(const FlatFace &own, const FlatFace &other);
 
 /// Points along each side of a triangle's rule with which the products of two shape functions are integrated exactly on
-/// triangles and parallelograms and to about 1e-10 on other quadrilaterals.
-int n_along_side(const FlatFace &own, const FlatFace &other);
+/// triangles and parallelograms and to about 1e-10 on other quadrilaterals. The derivatives, too, where they are
+/// wanted: they are those of a parallelogram that distorts.
+int n_along_side(const FlatFace &own, const FlatFace &other, bool with_gradient);
 } // namespace amontons

@@ -118,7 +118,7 @@ public:
   void run()
   {
     out_.size = out_.ring_size = part_.area();
-    const int n = n_along_side(own_, other_);
+    const int n = n_along_side(own_, other_, with_gradient_);
     for (int i = 2; i < part_.n; ++i)
       add_triangle(i, n);
     store_values();

@@ -48,7 +48,7 @@ FaceOverlap overlap_of_faces(const FaceCoordinates &impactor, const FaceCoordina
   const FlatFace other = plane.flat(target);
   const FlatPolygon common = shared_part(plane.own(), other);
   out.size = common.area();
-  const int n = n_along_side(plane.own(), other);
+  const int n = n_along_side(plane.own(), other, false);
   for (int i = 2; i < common.n; ++i)
   {
     const FlatTriangle triangle = common.triangle(i);
