@@ -196,6 +196,22 @@ TEST_P(DistributedRun, FiniteStrainFromFaceToFace)
   expect_as_alone(problem);
 }
 
+TEST_P(DistributedRun, FiniteStrainWhileAllTurns)
+{
+  if (GetParam().linear == LinearSolverType::feti)
+    GTEST_SKIP() << "feti is for small strain";
+  Problem problem = sliding_block();
+  const auto turning = [](const std::string &x, const std::string &y)
+  {
+    return std::map<int, Expression>{{0, expression("cos(3*t*t)*(" + x + ")-sin(3*t*t)*(" + y + ")-x")},
+                                     {1, expression("sin(3*t*t)*(" + x + ")+cos(3*t*t)*(" + y + ")-y")}};
+  };
+  problem.options.boundary.clear();
+  problem.on("lower_bottom").displacement = turning("x", "y");
+  problem.on("upper_top").displacement = turning("x+0.4*t", "y-0.1*min(4*t,1)");
+  expect_as_alone(problem);
+}
+
 TEST_P(DistributedRun, WhatNobodyHoldsIsSaidByAll)
 {
   Problem problem = dragged_block();

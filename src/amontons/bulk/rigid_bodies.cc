@@ -128,21 +128,23 @@ void RigidBodies::number_unknowns()
 
 std::vector<RigidState> RigidBodies::prescribe(std::vector<RigidState> state, double time, double share) const
 {
+  using Kind = RigidComponent::Kind;
   for (std::size_t b = 0; b < bodies_.size(); ++b)
   {
     const std::array<double, 3> point{bodies_[b].point[0], bodies_[b].point[1], bodies_[b].point[2]};
-    bool turned = false;
+    const auto go_to_value = [&](const RigidComponent &component, double &value)
+    { value += share * ((component.kind == Kind::held ? 0 : (*component.function)(time, point)) - value); };
+    const bool turns_freely = std::any_of(bodies_[b].rotation.begin(), bodies_[b].rotation.end(),
+                                          [](const RigidComponent &r) { return r.kind == Kind::free; });
     for (int c = 0; c < 3; ++c)
     {
-      if (const auto &t = bodies_[b].translation[c]; t.kind == RigidComponent::Kind::prescribed)
-        state[b].translation[c] += share * ((*t.function)(time, point) - state[b].translation[c]);
-      if (const auto &r = bodies_[b].rotation[c]; r.kind == RigidComponent::Kind::prescribed)
-      {
-        state[b].rotation_vector[c] += share * ((*r.function)(time, point) - state[b].rotation_vector[c]);
-        turned = true;
-      }
+      if (const auto &t = bodies_[b].translation[c]; t.kind != Kind::free)
+        go_to_value(t, state[b].translation[c]);
+      // A body that turns freely adds up spins: their components are not those of a rotation.
+      if (const auto &r = bodies_[b].rotation[c]; r.kind == Kind::prescribed || !turns_freely)
+        go_to_value(r, state[b].rotation_vector[c]);
     }
-    if (turned)
+    if (!turns_freely)
       state[b].rotation = rotation_matrix(state[b].rotation_vector);
   }
   return state;

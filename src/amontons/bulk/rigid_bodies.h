@@ -63,7 +63,7 @@ public:
   [[nodiscard]] bool concerns(const BoundaryOptions &entry) const { return find(entry.region) >= 0; }
 
   [[nodiscard]] std::vector<RigidState> initial_state() const { return std::vector<RigidState>(bodies_.size()); }
-  /// State with the prescribed components moved to their values at `time` by the fraction `share` of the way.
+  /// State with prescribed and held components moved to their values at `time` by the fraction `share` of the way.
   [[nodiscard]] std::vector<RigidState> prescribe(std::vector<RigidState> state, double time, double share = 1) const;
   /// State after the free components moved by `increment` [n_unknowns] (rotations: spins).
   [[nodiscard]] std::vector<RigidState> advance(std::vector<RigidState> state, std::span<const double> increment) const;

@@ -252,7 +252,7 @@ Newton::Iterate Newton::begin(const State &start, double time, const State *gues
   form_->set_held_modes({});
   contacts_.forget_slip();
   Iterate out;
-  out.state = guess ? *guess : start;
+  out.state = guess ? *guess : predictor_.carried(start, time);
   detect(out.state);
   Closed touching;
   // FreeMotions chooses by itself what closes first where forces move bodies.

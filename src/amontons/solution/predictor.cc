@@ -16,6 +16,8 @@ namespace
 constexpr double same_direction = 0.98;
 /// How much the ratios of prescribed displacements and of forces may differ, over the larger.
 constexpr double same_ratio = 0.05;
+/// Changes of loads below this part of their size are nothing, where the motion of a frame was taken out of them.
+constexpr double round_off = 1e-12;
 
 struct Change
 {
@@ -51,41 +53,84 @@ Products nodal_products(const Sharing &nodes, int dim, std::span<const double> s
   return {sums[0], sums[1], sums[2]};
 }
 
-Change compare(const Products &products)
+/// @param nothing2 square of a change that counts as none
+Change compare(const Products &products, double nothing2)
 {
   const auto &[first2, second2, product] = products;
-  if (first2 == 0 && second2 == 0)
+  if (first2 <= nothing2 && second2 <= nothing2)
     return {};
-  if (first2 == 0 || second2 == 0 || product < same_direction * std::sqrt(first2) * std::sqrt(second2))
+  if (first2 <= nothing2 || second2 <= nothing2 || product < same_direction * std::sqrt(first2) * std::sqrt(second2))
     return {true, false, 1};
   return {true, true, product / first2};
 }
 } // namespace
 
-Predictor::Loads Predictor::loads(const State &state, double time)
+Predictor::Loads Predictor::loads(const State &now, double time, const RigidMotion &carried)
 {
   Loads out;
-  out.displacement = model_.prescribe(model_.initial_state(), time, 1).displacement;
+  const auto dim = static_cast<std::size_t>(model_.dim());
+  out.displacement = given_.moved(model_.prescribe(model_.initial_state(), time, 1), carried).displacement;
+  if (!carried.is_nil())
+    for (std::size_t i = 0; i < out.displacement.size(); ++i)
+      if (!given_.is_held()[i / dim])
+        out.displacement[i] = 0;
+
+  const State then = given_.moved(now, carried.inverse());
   std::vector<double> internal(static_cast<std::size_t>(model_.n_nodal()), 0.0);
   out.force.assign(internal.size(), 0.0);
-  (void)model_.bodies().forces(model_.mesh_part(state.displacement), time, model_.mesh_part(internal),
+  (void)model_.bodies().forces(model_.mesh_part(then.displacement), time, model_.mesh_part(internal),
                                model_.mesh_part(out.force));
   model_.nodes().sum(out.force, model_.dim());
   out.on_rigid.assign(static_cast<std::size_t>(model_.rigid().n_unknowns()), 0.0);
   model_.rigid().add_forces(time, out.on_rigid);
+  turn(out, carried.rotation);
   return out;
+}
+
+void Predictor::turn(Loads &loads, const Eigen::Matrix3d &rotation) const
+{
+  if (rotation.isIdentity(0))
+    return;
+  const int dim = model_.dim();
+  for (double *force = loads.force.data(); force != loads.force.data() + loads.force.size(); force += dim)
+  {
+    Eigen::Vector3d turned = Eigen::Vector3d::Zero();
+    std::copy_n(force, dim, turned.data());
+    turned = rotation * turned;
+    std::copy_n(turned.data(), dim, force);
+  }
+  for (const RigidBody &body : model_.rigid().bodies())
+    for (const auto *components : {&body.translation, &body.rotation})
+    {
+      Eigen::Vector3d turned = Eigen::Vector3d::Zero();
+      for (int c = 0; c < 3; ++c)
+        if (const Index unknown = (*components)[c].unknown; unknown >= 0)
+          turned += rotation.col(c) * loads.on_rigid[unknown];
+      for (int c = 0; c < 3; ++c)
+        if (const Index unknown = (*components)[c].unknown; unknown >= 0)
+          loads.on_rigid[unknown] = turned[c];
+    }
 }
 
 std::optional<double> Predictor::load_ratio(const State &now, double from, double to)
 {
-  const Loads start = loads(now, last_->from), middle = loads(now, from), end = loads(now, to);
+  const RigidMotion still, last = given_.of_observer(last_->start, now),
+                           next = given_.of_observer(now, model_.prescribe(now, to, 1));
+  const Loads start = loads(now, last_->from, last), middle = loads(now, from, still),
+              end = loads(now, to, next.inverse());
   const Sharing &nodes = model_.nodes();
-  const Change motion =
-      compare(nodal_products(nodes, model_.dim(), start.displacement, middle.displacement, end.displacement));
-  Products forces = nodal_products(nodes, model_.dim(), start.force, middle.force, end.force);
+  const int dim = model_.dim();
+  const double error2 = last.is_nil() && next.is_nil() ? 0 : round_off * round_off;
+  const Change motion = compare(nodal_products(nodes, dim, start.displacement, middle.displacement, end.displacement),
+                                error2 * nodes.dot(model_.points(), model_.points(), dim));
+  Products forces = nodal_products(nodes, dim, start.force, middle.force, end.force);
+  double force2 = nodes.dot(middle.force, middle.force, dim);
   for (std::size_t i = 0; i < start.on_rigid.size(); ++i)
+  {
     add_products(forces, start.on_rigid[i], middle.on_rigid[i], end.on_rigid[i]);
-  const Change force = compare(forces);
+    force2 += std::pow(middle.on_rigid[i], 2);
+  }
+  const Change force = compare(forces, error2 * force2);
   if (!motion.goes_on || !force.goes_on || (!motion.moves && !force.moves))
     return {};
   if (motion.moves && force.moves &&
@@ -101,14 +146,18 @@ std::optional<State> Predictor::guess(const State &now, double from, double to)
   const std::optional<double> ratio = load_ratio(now, from, to);
   if (!ratio)
     return {};
+  // Seen from the bodies themselves, as they are now.
+  const bool turns = !model_.small_strain();
+  const State end = model_.prescribe(now, to, 1);
+  const State then = turns ? given_.moved(last_->start, given_.of_bodies(last_->start, now)) : last_->start;
   State out = now;
   for (std::size_t i = 0; i < out.displacement.size(); ++i)
-    out.displacement[i] += *ratio * (now.displacement[i] - last_->start.displacement[i]);
+    out.displacement[i] += *ratio * (now.displacement[i] - then.displacement[i]);
   for (std::size_t i = 0; i < out.multipliers.size(); ++i)
-    out.multipliers[i] += *ratio * (now.multipliers[i] - last_->start.multipliers[i]);
+    out.multipliers[i] += *ratio * (now.multipliers[i] - then.multipliers[i]);
   for (std::size_t b = 0; b < out.rigid.size(); ++b)
   {
-    const RigidState &before = last_->start.rigid[b];
+    const RigidState &before = then.rigid[b];
     RigidState &body = out.rigid[b];
     body.translation += *ratio * (body.translation - before.translation);
     body.rotation_vector += *ratio * (body.rotation_vector - before.rotation_vector);
@@ -116,32 +165,26 @@ std::optional<State> Predictor::guess(const State &now, double from, double to)
     turn.angle() *= *ratio;
     body.rotation = turn * body.rotation;
   }
+  if (turns)
+    out = given_.moved(std::move(out), given_.of_bodies(now, end));
   return model_.prescribe(std::move(out), to, 1);
 }
+
+State Predictor::carried(const State &now, double to) const
+{
+  const RigidMotion motion = given_.of_observer(now, model_.prescribe(now, to, 1));
+  return motion.is_nil() ? now : given_.moved(now, motion);
+}
+
 State Predictor::approach(const State &now, double to) const
 {
   const auto dim = static_cast<std::size_t>(model_.dim());
-  const Mesh &mesh = model_.mesh();
-  State out = model_.prescribe(now, to, 1);
-  std::vector<double> body(model_.rigid_of_node().size(), -1);
-  const std::span<const Index> body_of_cell = model_.bodies().body_of_cell();
-  for (std::size_t cell = 0; cell < body_of_cell.size(); ++cell)
-    for (const Index node : mesh.cells[cell])
-      body[node] = std::max(body[node], static_cast<double>(body_of_cell[cell]));
-  model_.nodes().maximum(body);
-  std::vector<double> sum(model_.options().bodies.size() * dim, 0.0), count(sum);
-  for (const HeldComponent &held : model_.supports().held())
-    if (const auto b = static_cast<Index>(body[held.nodal / dim]); b >= 0 && model_.nodes().is_own(held.nodal / dim))
-    {
-      sum[b * dim + held.nodal % dim] += out.displacement[held.nodal] - now.displacement[held.nodal];
-      ++count[b * dim + held.nodal % dim];
-    }
-  model_.nodes().sum_over_processes(sum);
-  model_.nodes().sum_over_processes(count);
-  for (std::size_t node = 0; node * dim < out.displacement.size(); ++node)
-    if (body[node] >= 0 && model_.rigid_of_node()[node] < 0)
-      for (std::size_t i = node * dim, k = static_cast<std::size_t>(body[node]) * dim; i < (node + 1) * dim; ++i, ++k)
-        out.displacement[i] = now.displacement[i] + sum[k] / std::max(count[k], 1.0);
+  const State end = model_.prescribe(now, to, 1);
+  State out = given_.moved(now, given_.of_bodies(now, end));
+  out.rigid = end.rigid;
+  for (std::size_t i = 0; i < out.displacement.size(); ++i)
+    if (model_.rigid_of_node()[i / dim] >= 0)
+      out.displacement[i] = end.displacement[i];
   return out;
 }
 
