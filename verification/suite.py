@@ -42,7 +42,7 @@ class Row:
     """One figure held against its reference.
 
     error = |ours - reference| / scale; scale is |reference|, or 1 where that is zero. Judged against `tolerance`; a row that
-    misses it is `short` where the case states the `reason` and it is off by no more than its scale, or `refused` by the program, else it fails; a reference that is not known is nan. `runs`: the runs it stands on, for their
+    misses it is `short` where the case states the `reason` and it is off by no more than its scale, else it fails; a reference that is not known is nan. `runs`: the runs it stands on, for their
     Newton iterations. `order`: of convergence with the cells' size, from `errors_by_size`.
     """
     quantity: str
@@ -53,7 +53,6 @@ class Row:
     runs: tuple = ()
     order: float = None
     reason: str = ""
-    refused: bool = False
 
     @property
     def error(self):
@@ -63,7 +62,7 @@ class Row:
     def verdict(self):
         if self.error <= self.tolerance:  # false where the error is not a number
             return "met"
-        if self.refused or math.isnan(self.reference):
+        if math.isnan(self.reference):
             return "short"
         return "short" if self.reason and self.error <= MOST_SHORT else "FAILED"
 

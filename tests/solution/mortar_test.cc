@@ -115,7 +115,6 @@ TEST(Mortar, IsRefusedWhereItHasNoMeaning)
     problem.on("body_top").fix = {0, 1};
     EXPECT_THAT([&] { (void)problem.solve(); }, testing::ThrowsMessage<UserError>(testing::HasSubstr(why)));
   };
-  refused(Strain::finite, "body_top", "strain: small");
   refused(Strain::small, "ground", "is an analytic body");
   refused(Strain::small, "body_bottom", "touches itself");
 }

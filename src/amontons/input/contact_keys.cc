@@ -93,7 +93,7 @@ Section<ContactOptions> contact_keys()
               {{"node-to-face", Discretization::node_to_face}, {"mortar", Discretization::mortar}}, optional,
               "where the gap is measured; node-to-face: at the impactor's nodes; mortar: surface to surface, in the "
               "mean over the impactor's faces, so that a uniform pressure passes exactly between meshes that do not "
-              "match (two meshed sides, small strain)");
+              "match (two meshed sides)");
   keys.number("augmentation", &ContactOptions::augmentation, positive, "1", optional,
               "factor on the augmentation parameter, which is found from the bodies' stiffness; the solution does not "
               "depend on it");

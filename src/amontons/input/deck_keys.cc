@@ -86,9 +86,12 @@ Section<SolverOptions> solver_keys()
       "where that one fails");
   keys.choice(
       "multipliers", &SolverOptions::multipliers,
-      {{"condensed", MultiplierForm::condensed}, {"coupled", MultiplierForm::coupled}}, optional,
+      {{"auto", MultiplierForm::automatic},
+       {"condensed", MultiplierForm::condensed},
+       {"coupled", MultiplierForm::coupled}},
+      optional,
       "condensed: the contact constraints are eliminated, exactly; coupled: the multipliers are unknowns of the "
-      "system, which takes linear: direct");
+      "system, which takes linear: direct; auto: condensed, but for mortar contact in finite strain");
   keys.check(
       [](const Value &value, SolverOptions &solver, ReadContext &)
       {

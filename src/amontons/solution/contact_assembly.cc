@@ -18,14 +18,14 @@ Multipliers multipliers_of(const State &state, const ContactInterface &contact, 
   return {lambda[0], {lambda[1], dim == 3 ? lambda[2] : 0}};
 }
 
-/// A node without a pair: its multipliers are zero.
-ContactElement unpaired_element(const Multipliers &lambda, int dim, double r)
+/// A node without a pair: its multipliers are zero. @param n_nodal components that its pattern has, from when it had one
+ContactElement unpaired_element(const Multipliers &lambda, int dim, double r, int n_nodal)
 {
   ContactElement out;
-  out.force.resize(0);
-  out.stiffness.resize(0, 0);
-  out.force_by_multiplier.resize(0, dim);
-  out.constraint_by_position.resize(dim, 0);
+  out.force.setZero(n_nodal);
+  out.stiffness.setZero(n_nodal, n_nodal);
+  out.force_by_multiplier.setZero(n_nodal, dim);
+  out.constraint_by_position.setZero(dim, n_nodal);
   out.constraint_by_multiplier = -Eigen::MatrixXd::Identity(dim, dim) / r;
   out.constraint.resize(dim);
   out.constraint[0] = -lambda.normal / r;
@@ -68,8 +68,8 @@ void ContactAssembly::rebuild_pattern()
     for (Index i = 0; i < contact.n_nodes(); ++i)
     {
       ConstraintPattern pattern;
-      if (contact.paired(i))
-        for (const Index node : contact.nodes(i))
+      if (const std::vector<Index> nodes = contact.nodes(i); nodes.size() > 1)
+        for (const Index node : nodes)
           for (int c = 0; c < dim; ++c)
             pattern.nodal.push_back(node * dim + c);
       for (int m = 0; m < dim; ++m)
@@ -116,7 +116,7 @@ ContactAssembly::Work ContactAssembly::make_element(int c, Index i, std::size_t 
   Work work{c, i, block, {}};
   if (!contact.paired(i))
   {
-    work.element = unpaired_element(lambda, dim, r);
+    work.element = unpaired_element(lambda, dim, r, form_.constraints()[block].n_nodal());
     return work;
   }
   const ContactLinearisation now = contact.linearise(i, motions.now, motions.start);
@@ -228,6 +228,8 @@ void ContactAssembly::make_elements(const State &state, const Motions &motions,
   trial_direction_.assign(form_.constraints().size(), Eigen::Vector3d::Zero());
   std::map<Index, std::vector<Work>> special;
   for (int c = 0; c < static_cast<int>(model_.contacts().size()); ++c)
+  {
+    model_.contacts()[c].move_to(motions.now);
     for (Index i = 0; i < model_.contacts()[c].n_nodes(); ++i)
     {
       const bool force = std::binary_search(forced.begin(), forced.end(), std::pair{c, i});
@@ -239,6 +241,7 @@ void ContactAssembly::make_elements(const State &state, const Motions &motions,
       else
         add(work, motions.pending, out);
     }
+  }
   for (auto &[node, works] : special)
   {
     std::vector<Work *> pointers;

@@ -51,6 +51,10 @@ ContactInterface::ContactInterface(const std::vector<double> &points, Kinematics
   {
     mortar_distance_ = detection.distance;
     require_meshed_sides();
+    if (!small_)
+      moving_mortar_.emplace(surfaces_.whole_impactor, surfaces_.whole_target, axisymmetric_,
+                             std::span(impactor().node_ids).first(static_cast<std::size_t>(n_nodes())),
+                             detection.distance);
   }
   const auto n = static_cast<std::size_t>(n_nodes());
   pairing_.resize(n);
@@ -94,6 +98,8 @@ std::span<const Index> ContactInterface::face_nodes(Index i) const
 
 std::vector<Index> ContactInterface::nodes(Index i) const
 {
+  if (moving_mortar_)
+    return moving_mortar_->nodes(i);
   std::vector<Index> out{node(i)};
   const auto add = [&](std::span<const Index> targets) { out.insert(out.end(), targets.begin(), targets.end()); };
   if (analytic_)
@@ -151,16 +157,17 @@ Eigen::Vector3d ContactInterface::relative(Index i, std::span<const double> disp
   return out;
 }
 
-bool ContactInterface::begin_increment(std::span<const double> start)
+bool ContactInterface::begin_increment(std::span<const double> start, double reach)
 {
   const auto same_face = [](const Pair &a, const Pair &b) { return a.face == b.face; };
-  const bool restore =
-      !start_pairing_.empty() && !std::equal(pairing_.begin(), pairing_.end(), start_pairing_.begin(), same_face);
-  if (restore)
+  bool changed = !start_pairing_.empty() && !std::equal(pairing_.begin(), pairing_.end(), start_pairing_.begin(), same_face);
+  if (changed)
   {
     pairing_ = start_pairing_;
     faces_ = start_faces_;
   }
+  if (moving_mortar_)
+    changed = start_mortar(start, reach);
   smooth_target_normals(start);
   for (Index i = 0; i < n_nodes(); ++i)
   {
@@ -176,12 +183,11 @@ bool ContactInterface::begin_increment(std::span<const double> start)
       gather({&surfaces_.nodes[i], 1}, start, {slip_origin_[i].data(), 3});
       add_reference({&surfaces_.nodes[i], 1}, {slip_origin_[i].data(), 3});
     }
-    const double gap = linearise_with_origin(i, start, start).gap;
-    start_gap_[i] = gap;
+    start_gap_[i] = gap(i, start);
     const double size = std::pow(areas_[i], 1.0 / (dim_ - 1));
-    has_origin_[i] = options_.tied || status_[i] != ContactStatus::open || gap <= touching * size;
+    has_origin_[i] = options_.tied || status_[i] != ContactStatus::open || start_gap_[i] <= touching * size;
   }
-  return restore;
+  return changed;
 }
 
 void ContactInterface::smooth_target_normals(std::span<const double> start)
@@ -218,7 +224,9 @@ ContactLinearisation ContactInterface::linearise_with_origin(Index i, std::span<
   const std::span<const double> origin{slip_origin_[i].data(), d};
 
   ContactLinearisation out;
-  if (small_)
+  if (moving_mortar_)
+    out = moving_mortar_->linearise(i);
+  else if (small_)
   {
     add_reference(all, then);
     gather(all, displacement, now);
@@ -245,13 +253,18 @@ ContactLinearisation ContactInterface::linearise_with_origin(Index i, std::span<
   return out;
 }
 
-void ContactInterface::find_closing_origin(Index i, const ContactLinearisation &now,
-                                           std::span<const double> displacement, std::span<const double> start)
+void ContactInterface::find_closing_origin(Index i, double gap, std::span<const double> displacement,
+                                           std::span<const double> start)
 {
   has_origin_[i] = 1;
+  if (moving_mortar_)
+  {
+    moving_mortar_->set_origin(i, closing_fraction(start_gap_[i], gap));
+    return;
+  }
   if (small_)
   {
-    slip_origin_[i] += closing_fraction(start_gap_[i], now.gap) * (relative(i, displacement) - slip_origin_[i]);
+    slip_origin_[i] += closing_fraction(start_gap_[i], gap) * (relative(i, displacement) - slip_origin_[i]);
     return;
   }
   const std::vector<Index> ids = nodes(i);
@@ -272,11 +285,13 @@ void ContactInterface::find_closing_origin(Index i, const ContactLinearisation &
                                          {x_start.data(), d}, {x_start.data() + d, d});
 }
 
-void ContactInterface::set_trial(std::span<const double> displacement, std::span<const double> start)
+bool ContactInterface::set_trial(std::span<const double> displacement, std::span<const double> start)
 {
+  move_to(displacement);
   for (Index i = 0; i < n_nodes(); ++i)
     if (paired(i) && !has_origin_[i])
-      find_closing_origin(i, linearise_with_origin(i, displacement, start), displacement, start);
+      find_closing_origin(i, gap(i, displacement), displacement, start);
+  return moving_mortar_ && moving_mortar_->take_nodes(false);
 }
 
 ContactLinearisation ContactInterface::linearise(Index i, std::span<const double> displacement,
@@ -285,7 +300,7 @@ ContactLinearisation ContactInterface::linearise(Index i, std::span<const double
   const ContactLinearisation now = linearise_with_origin(i, displacement, start);
   if (has_origin_[i] || now.gap > 0)
     return now;
-  find_closing_origin(i, now, displacement, start);
+  find_closing_origin(i, now.gap, displacement, start);
   return linearise_with_origin(i, displacement, start);
 }
 
@@ -293,11 +308,12 @@ void ContactInterface::set_initial_gap(std::span<const double> displacement)
 {
   if (!options_.tied && options_.initial_overlap == InitialOverlap::resolve)
     return;
+  move_to(displacement);
   for (Index i = 0; i < n_nodes(); ++i)
     if (paired(i))
     {
-      const double gap = linearise_with_origin(i, displacement, displacement).gap;
-      gap_offset_[i] = options_.tied ? gap : std::min(0.0, gap);
+      const double initial = gap(i, displacement);
+      gap_offset_[i] = options_.tied ? initial : std::min(0.0, initial);
     }
 }
 } // namespace amontons

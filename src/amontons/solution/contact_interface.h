@@ -4,6 +4,7 @@
 #include "amontons/contact/options.h"
 #include "amontons/detection/report.h"
 #include "amontons/solution/contact_surfaces.h"
+#include "amontons/solution/moving_mortar.h"
 #include "amontons/solution/results.h"
 #include "amontons/surface/shape.h"
 
@@ -72,6 +73,8 @@ public:
   /// Position of impactor node i among the process's nodes.
   [[nodiscard]] Index node(Index i) const { return surfaces_.nodes[i]; }
   [[nodiscard]] std::span<const double> areas() const { return areas_; }
+  /// With mortar what of them sees the target, in finite strain now; whole where nothing does.
+  [[nodiscard]] std::vector<double> covered_areas() const;
   /// Finds out which processes have which of the impactor's nodes. Collective.
   void share(std::shared_ptr<MessageExchange> messages);
   /// @param areas tributary ones, [n_nodes]
@@ -81,6 +84,8 @@ public:
   [[nodiscard]] double stiffness(Index i) const { return augmentation_[i] / options_.augmentation; }
   [[nodiscard]] bool paired(Index i) const
   {
+    if (moving_mortar_)
+      return moving_mortar_->sees_target(i);
     return analytic_ || (mortar_ ? mortar_->sees_target(i) : pairing_[i].face >= 0);
   }
   /// Faces by their ids.
@@ -107,8 +112,16 @@ public:
   /// @param keep hold on to the present face where the projection has hardly left it (within an increment)
   /// @return whether the face of any node changed: then place_faces() is needed
   bool take_pairs(const Pairing &found, const Surface &target, std::span<const double> displacement, bool keep);
-  /// Mortar, in the reference: couples what comes within `reach`, if the user gives no distance.
-  void couple(double reach);
+  /// Mortar: couples what comes within `reach`, if the user gives no distance; in small strain in the reference and
+  /// once for all. @return whether nodes() of any node changed
+  bool couple(std::span<const double> displacement, double reach);
+  /// Mortar in finite strain: gaps and linearisations are of this configuration from now on, which is the one that
+  /// they have to be asked for. All others need no such call.
+  void move_to(std::span<const double> displacement)
+  {
+    if (moving_mortar_)
+      moving_mortar_->move_to(displacement);
+  }
   /// Target nodes, by id, of present pairs and those at the increment's beginning.
   [[nodiscard]] std::vector<GlobalIndex> wanted_nodes() const;
   /// Takes the positions of the target nodes.
@@ -119,19 +132,21 @@ public:
   /// Of couple(), or of what an analytic shape needs not search for; of this process's nodes.
   [[nodiscard]] DetectionReport detection_report() const;
 
-  /// Takes note of the state at an increment's beginning: from where slip counts. @return whether pairs that a failed
-  /// attempt had changed were put back
-  bool begin_increment(std::span<const double> start);
+  /// Takes note of the state at an increment's beginning: from where slip counts. @param reach as in couple()
+  /// @return whether nodes() of any node changed, as where pairs that a failed attempt had changed are put back
+  bool begin_increment(std::span<const double> start, double reach);
 
   /// Takes the state to which the increment leads with the statuses of its beginning: nodes that are open at the
   /// beginning take the origin of their slip, should they close, from the way to it (THEORY: the instant of closing):
   /// where the gap vanished, or its end. The first call within an increment counts.
-  void set_trial(std::span<const double> displacement, std::span<const double> start);
+  /// @return whether nodes() of any node changed
+  bool set_trial(std::span<const double> displacement, std::span<const double> start);
 
   /// Gap of node i, which is paired.
   [[nodiscard]] double gap(Index i, std::span<const double> displacement) const
   {
-    return linearise_with_origin(i, displacement, displacement).gap;
+    return moving_mortar_ ? moving_mortar_->gap(i) - gap_offset_[i]
+                          : linearise_with_origin(i, displacement, displacement).gap;
   }
 
   /// Gap and slip of node i. A node that is closed before there is a trial state takes the present one for it.
@@ -192,8 +207,7 @@ private:
   };
   [[nodiscard]] ContactLinearisation linearise_with_origin(Index i, std::span<const double> displacement,
                                                            std::span<const double> start) const;
-  void find_closing_origin(Index i, const ContactLinearisation &now, std::span<const double> displacement,
-                           std::span<const double> start);
+  void find_closing_origin(Index i, double gap, std::span<const double> displacement, std::span<const double> start);
   void gather(std::span<const Index> nodes, std::span<const double> displacement, std::span<double> out) const;
   void add_reference(std::span<const Index> nodes, std::span<double> out) const;
   [[nodiscard]] std::span<const Index> face_nodes(Index i) const;
@@ -202,6 +216,9 @@ private:
   [[nodiscard]] std::vector<double> target_weights(Index i) const;
   [[nodiscard]] Eigen::Vector3d relative(Index i, std::span<const double> displacement) const;
   void require_meshed_sides() const;
+  bool start_mortar(std::span<const double> start, double reach);
+  void couple_reference(double reach);
+  [[nodiscard]] UserError two_layers(const Eigen::Vector3d &middle, double w) const;
   [[nodiscard]] DetectionReport mortar_report() const;
   void set_face(Index i, const Pair &pair, const Surface &target);
   [[nodiscard]] bool keeps_face(Index i, const Pair &found, GlobalIndex face,
@@ -217,7 +234,8 @@ private:
   Index shape_node_ = -1;
   std::vector<double> areas_, augmentation_;
   std::optional<double> mortar_distance_; ///< w: the user's, once coupled what was taken
-  std::optional<MortarMeans> mortar_;     ///< as last coupled
+  std::optional<MortarMeans> mortar_;     ///< small strain, once coupled
+  std::optional<MovingMortar> moving_mortar_; ///< finite strain
   Pairing pairing_, start_pairing_;       ///< now, and at the increment's beginning; faces by their ids
   TargetFaces faces_, start_faces_;       ///< with them
   std::vector<Index> smoothed_positions_; ///< of the whole target's nodes

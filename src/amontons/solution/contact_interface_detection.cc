@@ -16,7 +16,7 @@ constexpr int many_face_changes = 4;
 
 DetectionReport ContactInterface::detection_report() const
 {
-  if (mortar_)
+  if (is_mortar())
     return mortar_report();
   DetectionReport report;
   report.method = "analytic";
@@ -125,6 +125,11 @@ std::vector<GlobalIndex> ContactInterface::wanted_nodes() const
     std::copy_if(faces->ids.begin(), faces->ids.end(), std::back_inserter(out), [](GlobalIndex id) { return id >= 0; });
   if (mortar_)
     out.insert(out.end(), mortar_->targets.begin(), mortar_->targets.end());
+  if (moving_mortar_)
+  {
+    const std::vector<GlobalIndex> nodes = moving_mortar_->wanted_nodes();
+    out.insert(out.end(), nodes.begin(), nodes.end());
+  }
   return out;
 }
 
@@ -140,6 +145,8 @@ void ContactInterface::place_faces(const std::function<Index(GlobalIndex)> &posi
     place(faces->ids, faces->positions);
   if (mortar_)
     place(mortar_->targets, mortar_->positions);
+  if (moving_mortar_)
+    moving_mortar_->place(position_of);
   if (surfaces_.whole_target && !is_mortar())
     place(surfaces_.whole_target->node_ids, smoothed_positions_);
 }

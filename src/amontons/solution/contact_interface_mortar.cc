@@ -17,8 +17,6 @@ constexpr double round_off = 1e-12;
 void ContactInterface::require_meshed_sides() const
 {
   const std::string contact = "contact '" + options_.name + "': 'discretization: mortar' ";
-  if (!small_)
-    throw UserError(options_.where, contact + "goes with 'strain: small'; in finite strain take node-to-face");
   if (analytic_)
     throw UserError(options_.where, contact + "wants faces on both sides, and '" + options_.target +
                                         "' is an analytic body; mesh it, or take node-to-face");
@@ -26,7 +24,38 @@ void ContactInterface::require_meshed_sides() const
     throw UserError(options_.where, contact + "wants two sides; where a surface touches itself take node-to-face");
 }
 
-void ContactInterface::couple(double reach)
+UserError ContactInterface::two_layers(const Eigen::Vector3d &middle, double w) const
+{
+  return {options_.where, "contact '" + options_.name + "': the impactor's face at (" + std::to_string(middle.x()) +
+                              ", " + std::to_string(middle.y()) + ", " + std::to_string(middle.z()) +
+                              ") sees two layers of the target, which mortar cannot tell apart; set "
+                              "'detection: distance' below the distance of the farther one, now " +
+                              std::to_string(w)};
+}
+
+bool ContactInterface::start_mortar(std::span<const double> start, double reach)
+{
+  moving_mortar_->set_reach(reach);
+  moving_mortar_->move_to(start);
+  moving_mortar_->begin_increment();
+  return moving_mortar_->take_nodes(true);
+}
+
+bool ContactInterface::couple(std::span<const double> displacement, double reach)
+{
+  if (moving_mortar_)
+  {
+    moving_mortar_->set_reach(reach);
+    moving_mortar_->move_to(displacement);
+    if (const auto middle = moving_mortar_->doubled_face())
+      throw two_layers(*middle, moving_mortar_->distance());
+    return moving_mortar_->take_nodes(false);
+  }
+  couple_reference(reach);
+  return true;
+}
+
+void ContactInterface::couple_reference(double reach)
 {
   const double w = mortar_distance_.value_or(reach);
   const Surface &impactor = *surfaces_.whole_impactor, &target = *surfaces_.whole_target;
@@ -37,13 +66,7 @@ void ContactInterface::couple(double reach)
   if (const Index f = whole.doubled_face; f >= 0)
   {
     const FaceCoordinates face = gather_face(dim_, impactor.face(f), impactor.reference);
-    const Eigen::Vector3d middle = face_point(face, face_centre(face));
-    throw UserError(options_.where, "contact '" + options_.name + "': the impactor's face at (" +
-                                        std::to_string(middle.x()) + ", " + std::to_string(middle.y()) + ", " +
-                                        std::to_string(middle.z()) +
-                                        ") sees two layers of the target, which mortar cannot tell apart; set "
-                                        "'detection: distance' below the distance of the farther one, now " +
-                                        std::to_string(w));
+    throw two_layers(face_point(face, face_centre(face)), w);
   }
   MortarMeans &means = mortar_.emplace();
   for (Index i = 0; i < n_nodes(); ++i)
@@ -66,24 +89,36 @@ void ContactInterface::couple(double reach)
   surfaces_.whole_target.reset();
 }
 
+std::vector<double> ContactInterface::covered_areas() const
+{
+  std::vector<double> out = areas_;
+  if (!moving_mortar_)
+    return out;
+  const std::vector<double> shares = moving_mortar_->covered_shares();
+  for (Index i = 0; i < n_nodes(); ++i)
+    if (paired(i))
+      out[i] *= shares[i];
+  return out;
+}
+
 DetectionReport ContactInterface::mortar_report() const
 {
   DetectionReport report;
   report.method = "mortar";
-  report.distance = mortar_distance_.value();
+  report.distance = moving_mortar_ ? moving_mortar_->distance() : mortar_distance_.value();
   const std::vector<double> still(points_.size(), 0.0);
   for (Index i = 0; i < n_nodes(); ++i)
   {
-    if (!mortar_->sees_target(i))
+    if (!paired(i))
       continue;
     ++report.n_pairs;
-    const double gap = linearise_with_origin(i, still, still).gap;
-    if (gap > -round_off * report.distance)
+    const double depth = gap(i, still);
+    if (depth > -round_off * report.distance)
       continue;
     ++report.n_penetrations;
-    if (gap >= report.deepest)
+    if (depth >= report.deepest)
       continue;
-    report.deepest = gap;
+    report.deepest = depth;
     report.deepest_node = i;
     std::copy_n(impactor().reference.begin() + static_cast<std::ptrdiff_t>(i) * dim_, dim_,
                 report.deepest_point.begin());

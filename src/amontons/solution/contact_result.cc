@@ -57,7 +57,8 @@ void add_closed_node(ContactResult &out, Index i, const ContactLinearisation &no
 ContactResult ContactInterface::result(std::span<const double> displacement, std::span<const double> start,
                                        std::span<const double> multipliers)
 {
-  ContactResult out = empty_result(options_.name, surfaces_, areas_);
+  move_to(displacement);
+  ContactResult out = empty_result(options_.name, surfaces_, covered_areas());
   const int n_tangents = dim_ - 1;
   for (Index i = 0; i < n_nodes(); ++i)
   {

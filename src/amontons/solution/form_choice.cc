@@ -43,13 +43,30 @@ bool has_constant_stiffness(const ProblemOptions &options)
                                                                  body.material.law == MaterialLaw::rigid;
                                                         });
 }
+/// Rows of mortar in finite strain follow the nodes round the impactor node: to eliminate them would be to solve for the
+/// whole interface.
+bool has_moving_mortar(const ProblemOptions &options)
+{
+  return options.strain == Strain::finite &&
+         std::any_of(options.contact.begin(), options.contact.end(),
+                     [](const ContactOptions &contact) { return contact.discretization == Discretization::mortar; });
+}
+
+bool is_coupled(const ProblemOptions &options)
+{
+  return options.solver.multipliers == MultiplierForm::coupled || has_moving_mortar(options);
+}
 } // namespace
 
 std::vector<LinearSolverType> linear_solvers(const ProblemOptions &options, const Mesh &mesh)
 {
   using enum LinearSolverType;
   const LinearSolverType linear = options.solver.linear;
-  const bool coupled = options.solver.multipliers == MultiplierForm::coupled;
+  const bool coupled = is_coupled(options);
+  if (has_moving_mortar(options) &&
+      (linear == amg || linear == feti || options.solver.multipliers == MultiplierForm::condensed))
+    throw UserError("solver: 'discretization: mortar' in finite strain goes with 'multipliers: coupled' and 'linear: "
+                    "direct' only: the rows of neighbouring nodes hang together; take these, or leave both keys out");
   if (coupled && (linear == amg || linear == feti))
     throw UserError("solver: 'multipliers: coupled' goes with 'linear: direct' only: the multipliers' part of the "
                     "matrix is no work for amg or feti; take 'multipliers: condensed'");
@@ -84,7 +101,7 @@ std::unique_ptr<SystemForm> make_form(const Model &model, LinearSolverType linea
 {
   if (linear == LinearSolverType::feti)
     return make_feti(model);
-  if (model.options().solver.multipliers == MultiplierForm::coupled)
+  if (is_coupled(model.options()))
     return std::make_unique<CoupledForm>(model.layout(), model.bodies().subdomains(), make_direct_solver());
   return std::make_unique<CondensedForm>(model.layout(), model.bodies().subdomains(),
                                          linear == LinearSolverType::amg ? make_amg_solver() : make_direct_solver(),

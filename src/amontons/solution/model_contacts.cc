@@ -95,10 +95,7 @@ bool Model::detect(State &state, std::span<const double> reaches, bool keep)
       if (contacts_[c].is_searched())
         changed |= contacts_[c].take_pairs(search_->pairs(c), search_->target(c), before, keep);
       else if (contacts_[c].is_mortar())
-      {
-        contacts_[c].couple(reaches[c]);
-        changed = true;
-      }
+        changed |= contacts_[c].couple(before, reaches[c]);
   };
   try
   {

@@ -66,7 +66,7 @@ Newton::~Newton() = default;
 
 void Newton::begin_increment(const State &start)
 {
-  bool restored = false;
+  bool changed = false;
   const std::vector<double> displacement = model_.with_halo(start.displacement);
   try
   {
@@ -74,7 +74,7 @@ void Newton::begin_increment(const State &start)
                       [&]
                       {
                         for (ContactInterface &contact : model_.contacts())
-                          restored |= contact.begin_increment(displacement);
+                          changed |= contact.begin_increment(displacement, reach_);
                       });
   }
   catch (const NumericalFailure &)
@@ -82,7 +82,7 @@ void Newton::begin_increment(const State &start)
     contacts_.rebuild_pattern(); // some pairs may be back by now
     throw;
   }
-  if (!model_.nodes().true_on_all(!restored))
+  if (!model_.nodes().true_on_all(!changed))
     contacts_.rebuild_pattern();
 }
 
@@ -181,12 +181,15 @@ Newton::Iterate Newton::step_from(const Iterate &from, const State &start, doubl
 void Newton::set_trial(const State &trial, const State &start)
 {
   const std::vector<double> now = model_.with_halo(trial.displacement), then = model_.with_halo(start.displacement);
+  bool changed = false;
   agree_on_failures(model_.nodes(),
                     [&]
                     {
                       for (ContactInterface &contact : model_.contacts())
-                        contact.set_trial(now, then);
+                        changed |= contact.set_trial(now, then);
                     });
+  if (!model_.nodes().true_on_all(!changed))
+    contacts_.rebuild_pattern();
 }
 
 void Newton::iterate(Iterate &now, const State &start, double time, NewtonOutcome &outcome)

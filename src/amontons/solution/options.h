@@ -29,6 +29,7 @@ enum class LinearSolverType
 
 enum class MultiplierForm
 {
+  automatic, ///< condensed, but where rows of neighbours hang together: mortar in finite strain
   condensed,
   coupled
 };
@@ -36,7 +37,7 @@ enum class MultiplierForm
 struct SolverOptions
 {
   LinearSolverType linear = LinearSolverType::automatic;
-  MultiplierForm multipliers = MultiplierForm::condensed;
+  MultiplierForm multipliers = MultiplierForm::automatic;
   double tolerance = 1e-8; ///< residual force over the forces present
   int max_iterations = 25; ///< of Newton, per increment
 };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace amontons
 {
@@ -62,6 +63,15 @@ Change compare(const Products &products, double nothing2)
   if (first2 <= nothing2 || second2 <= nothing2 || product < same_direction * std::sqrt(first2) * std::sqrt(second2))
     return {true, false, 1};
   return {true, true, product / first2};
+}
+/// Of a contact's own nodes in a configuration; not a number where there is no pair.
+std::vector<double> gaps(ContactInterface &contact, std::span<const double> displacement)
+{
+  contact.move_to(displacement);
+  std::vector<double> out;
+  for (Index i = 0; i < contact.n_nodes(); ++i)
+    out.push_back(contact.paired(i) ? contact.gap(i, displacement) : std::numeric_limits<double>::quiet_NaN());
+  return out;
 }
 } // namespace
 
@@ -193,15 +203,19 @@ std::vector<std::pair<int, Index>> Predictor::touching(const State &now, const S
   std::vector<std::pair<int, Index>> out;
   const std::vector<double> before = model_.with_halo(now.displacement),
                             after = model_.with_halo(approach.displacement);
-  const auto closes = [&](const ContactInterface &contact, Index i)
-  { return contact.paired(i) && !contact.options().tied && contact.gap(i, before) > 0 && contact.gap(i, after) < 0; };
   agree_on_failures(model_.nodes(),
                     [&]
                     {
                       for (std::size_t c = 0; c < model_.contacts().size(); ++c)
-                        for (Index i = 0; i < model_.contacts()[c].n_nodes(); ++i)
-                          if (closes(model_.contacts()[c], i))
+                      {
+                        ContactInterface &contact = model_.contacts()[c];
+                        if (contact.options().tied)
+                          continue;
+                        const std::vector<double> gap_before = gaps(contact, before), gap_after = gaps(contact, after);
+                        for (Index i = 0; i < contact.n_nodes(); ++i)
+                          if (gap_before[i] > 0 && gap_after[i] < 0)
                             out.emplace_back(static_cast<int>(c), i);
+                      }
                     });
   return out;
 }

@@ -1,0 +1,212 @@
+#include "problem.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+/// Surface-to-surface contact in finite strain: uniform states, motions of the whole, sliding far, Newton's iterations.
+namespace amontons::test
+{
+namespace
+{
+constexpr double exact = 1e-8;
+
+/// Two blocks with meshes that do not match, one on the other, held on top and bottom as a press would: by what is
+/// smooth.
+Problem pressed_blocks(int dim, std::array<int, 2> n)
+{
+  const auto side = [dim](int k) { return std::array{k, dim == 3 ? k : 2, 2}; };
+  const Point size = dim == 2 ? Point(1, 1, 0) : Point(1, 1, 1);
+  Blocks blocks(dim);
+  blocks.add("lower", Point::Zero(), size, side(n[0]));
+  blocks.add("upper", Point::Unit(dim - 1), size, side(n[1]));
+  Problem problem(blocks, dim == 2 ? Kinematics::plane_strain : Kinematics::three_dimensional, Strain::finite);
+  for (const std::string body : {"lower", "upper"})
+  {
+    problem.elastic(body, 2, 0.3);
+    problem.on(body + "_left").fix = {0};
+    if (dim == 3)
+      problem.on(body + "_front").fix = {1};
+  }
+  problem.on("lower_bottom").fix = {dim - 1};
+  problem.on("upper_top").displacement[dim - 1] = expression("-0.6*t");
+  problem.contact("upper_bottom", "lower_top").discretization = Discretization::mortar;
+  problem.options.loading.increments = 3;
+  problem.options.solver.tolerance = 1e-11;
+  return problem;
+}
+
+/// One block twice as high.
+Record whole_block(int dim)
+{
+  Blocks blocks(dim);
+  blocks.add("block", Point::Zero(), dim == 2 ? Point(1, 2, 0) : Point(1, 1, 2), {2, 2, 2});
+  Problem problem(blocks, dim == 2 ? Kinematics::plane_strain : Kinematics::three_dimensional, Strain::finite);
+  problem.elastic("block", 2, 0.3);
+  problem.on("block_left").fix = {0};
+  if (dim == 3)
+    problem.on("block_front").fix = {1};
+  problem.on("block_bottom").fix = {dim - 1};
+  problem.on("block_top").displacement[dim - 1] = expression("-0.6*t");
+  problem.options.loading.increments = 3;
+  problem.options.solver.tolerance = 1e-11;
+  return problem.converge();
+}
+
+/// Without friction both blocks widen alike: pressed to 70 % of their height they are one block.
+TEST(MovingMortar, PressedBlocksAreOne)
+{
+  for (const int dim : {2, 3})
+  {
+    const Record whole = whole_block(dim);
+    const double force = std::abs(whole.reaction("block_top")[dim - 1]);
+    const double widening = whole.displacement(whole.node_at(dim == 2 ? Point(1, 1, 0) : Point(1, 1, 1)))[0];
+    for (const std::array<int, 2> n : {std::array{3, 3}, {3, 4}, {5, 2}})
+    {
+      const Record run = pressed_blocks(dim, n).converge();
+      EXPECT_NEAR(run.contact().normal_force[dim - 1], force, exact * force);
+      for (std::size_t i = 0; i < run.impactor_nodes[0].size(); ++i)
+      {
+        const auto node = static_cast<Index>(run.impactor_nodes[0][i]);
+        EXPECT_NEAR(run.contact().pressure[i], force, exact * force); // the area is 1
+        EXPECT_NEAR(run.displacement(node)[0], widening * run.place(node)[0], exact);
+        EXPECT_NEAR(run.displacement(node)[dim - 1], -0.3, exact);
+      }
+      for (const int iterations : run.iterations())
+        EXPECT_LE(iterations, 6);
+    }
+  }
+}
+
+/// The position turned by an angle about the origin after a motion to (x, y + way), as a displacement.
+void turn(BoundaryOptions &support, const std::string &way, const std::string &angle)
+{
+  support.fix.clear();
+  support.displacement[0] = expression("cos(" + angle + ")*x - sin(" + angle + ")*(y" + way + ") - x");
+  support.displacement[1] = expression("sin(" + angle + ")*x + cos(" + angle + ")*(y" + way + ") - y");
+}
+
+/// A rounded block pressed on a wider one and dragged along it with friction; all of it turned meanwhile.
+Record dragged(double angle)
+{
+  Blocks blocks(2);
+  blocks.add("lower", {-1.5, -0.6, 0}, {4, 0.6, 0}, {17, 3, 0},
+             [](const Point &x) { return Point(x[0], x[1] + (x[1] > -0.1 ? 0.03 * std::sin(2 * x[0]) : 0), 0); });
+  blocks.add("upper", {-0.5, 0.03, 0}, {1, 0.5, 0}, {6, 3, 0},
+             [](const Point &x) { return Point(x[0], x[1] + (0.6 - x[1]) * 0.2 * x[0] * x[0], 0); });
+  Problem problem(blocks, Kinematics::plane_strain, Strain::finite);
+  problem.elastic("lower", 1, 0.3);
+  problem.elastic("upper", 3, 0.3);
+  problem.contact("upper_bottom", "lower_top", 0.25).discretization = Discretization::mortar;
+  const std::string by = "(" + std::to_string(angle) + "*t)";
+  turn(problem.on("lower_bottom"), "", by);
+  BoundaryOptions &top = problem.on("upper_top");
+  // x + 0.3 max(t-1, 0): as a turn of the place that it has then.
+  const std::string x = "(x+0.3*max(t-1,0))", y = "(y-0.12*min(t,1))";
+  top.displacement[0] = expression("cos(" + by + ")*" + x + " - sin(" + by + ")*" + y + " - x");
+  top.displacement[1] = expression("sin(" + by + ")*" + x + " + cos(" + by + ")*" + y + " - y");
+  problem.options.loading.end = 3;
+  problem.options.loading.increments = 15;
+  problem.options.solver.tolerance = 1e-11;
+  return problem.converge();
+}
+
+TEST(MovingMortar, SlidesAsTheWholeTurns)
+{
+  const Record still = dragged(0), turned = dragged(0.4);
+  const ContactResult &a = still.contact(), &b = turned.contact();
+  EXPECT_GT(a.n_slip, 0);
+  EXPECT_EQ(a.status, b.status);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(3 * 0.4, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const double size = vector(a.normal_force).norm();
+  EXPECT_LT((turn * vector(a.normal_force) - vector(b.normal_force)).norm(), 1e-3 * size);
+  EXPECT_LT((turn * vector(a.tangential_force) - vector(b.tangential_force)).norm(), 1e-3 * size);
+  for (const Record *run : {&still, &turned})
+    for (const int iterations : run->iterations())
+      EXPECT_LE(iterations, 9);
+  // Forces on both sides and supports are in equilibrium.
+  EXPECT_LT((turned.reaction("lower_bottom") + turned.reaction("upper_top")).norm(), 1e-8 * size);
+}
+
+/// Over a plane that does not deform, with faces of its own: Coulomb's ratio whatever is crossed.
+TEST(MovingMortar, SlidesFarAtCoulombsLimit)
+{
+  for (const int dim : {2, 3})
+  {
+    Blocks blocks(dim);
+    blocks.add("block", dim == 2 ? Point(0, 0.01, 0) : Point(0, 0, 0.01), dim == 2 ? Point(1, 0.8, 0) : Point(1, 1, 0.8),
+               dim == 2 ? std::array{4, 3, 0} : std::array{3, 3, 2});
+    if (dim == 2)
+      blocks.add_line("floor", {{4, 0, 0}, {-2, 0, 0}}, 23);
+    else
+      blocks.add_sheet("floor", {-2, -2, 0}, {6, 0, 0}, {0, 5, 0}, {19, 14});
+    Problem problem(blocks, dim == 2 ? Kinematics::plane_strain : Kinematics::three_dimensional, Strain::finite);
+    problem.elastic("block", 1, 0.3);
+    problem.rigid("floor");
+    problem.on("floor").displacement = {{0, expression(0)}, {1, expression(0)}};
+    if (dim == 3)
+      problem.options.boundary.back().displacement[2] = expression(0);
+    BoundaryOptions &top = problem.on("block_top");
+    top.displacement[0] = expression("0.8*max(t-1,0)");
+    top.displacement[dim - 1] = expression("-0.1*min(t,1)");
+    if (dim == 3)
+      top.displacement[1] = expression("0.5*max(t-1,0)");
+    problem.contact("block_bottom", "floor", 0.2).discretization = Discretization::mortar;
+    problem.options.loading.end = 3;
+    problem.options.loading.increments = 12;
+    problem.options.solver.tolerance = 1e-11;
+    const Record run = problem.converge();
+    const ContactResult &contact = run.contact();
+    EXPECT_EQ(contact.n_slip, contact.n_active);
+    EXPECT_GT(contact.n_active, 0);
+    const Point friction = vector(contact.tangential_force);
+    EXPECT_NEAR(friction.norm(), 0.2 * contact.normal_force[dim - 1], 1e-3 * contact.normal_force[dim - 1]);
+    EXPECT_NEAR(friction[dim - 1], 0, 1e-9);
+    for (std::size_t i = 0; i < contact.pressure.size(); ++i)
+    {
+      const double *traction = contact.traction.data() + i * (dim - 1);
+      EXPECT_NEAR(std::hypot(traction[0], dim == 3 ? traction[1] : 0), 0.2 * contact.pressure[i], exact);
+    }
+  }
+}
+
+/// Held together, turned by a right angle and pulled: as one body, though the meshes do not match.
+TEST(MovingMortar, TiedBlocksTurn)
+{
+  Blocks blocks(2);
+  blocks.add("lower", {0, 0, 0}, {1, 1, 0}, {3, 2, 0});
+  blocks.add("upper", {0, 1, 0}, {1, 1, 0}, {4, 2, 0});
+  Problem problem(blocks, Kinematics::plane_strain, Strain::finite);
+  problem.elastic("lower", 2, 0);
+  problem.elastic("upper", 2, 0);
+  ContactOptions &contact = problem.contact("upper_bottom", "lower_top");
+  contact.discretization = Discretization::mortar;
+  contact.tied = true;
+  turn(problem.on("lower_bottom"), "", "(1.5707963267948966*t)");
+  turn(problem.on("upper_top"), "+0.2*t", "(1.5707963267948966*t)");
+  problem.options.loading.increments = 8;
+  problem.options.solver.tolerance = 1e-11;
+  const Record run = problem.converge();
+  for (std::size_t i = 0; i < run.impactor_nodes[0].size(); ++i)
+  {
+    const auto node = static_cast<Index>(run.impactor_nodes[0][i]);
+    const Point x = run.place(node) + run.displacement(node);
+    EXPECT_NEAR(x[0], -1.1, exact);
+    EXPECT_NEAR(x[1], run.place(node)[0], exact);
+    EXPECT_LT(run.contact().pressure[i], -0.1);
+    EXPECT_NEAR(run.contact().pressure[i], run.contact().pressure[0], exact);
+  }
+}
+
+TEST(MovingMortar, WantsTheCoupledForm)
+{
+  Problem problem = pressed_blocks(2, {2, 3});
+  problem.options.solver.multipliers = MultiplierForm::condensed;
+  EXPECT_THAT([&] { (void)problem.solve(); },
+              testing::ThrowsMessage<UserError>(testing::HasSubstr("'multipliers: coupled'")));
+  problem.options.solver.multipliers = MultiplierForm::automatic;
+  problem.options.solver.linear = LinearSolverType::amg;
+  EXPECT_THAT([&] { (void)problem.solve(); },
+              testing::ThrowsMessage<UserError>(testing::HasSubstr("'multipliers: coupled'")));
+}
+} // namespace
+} // namespace amontons::test
