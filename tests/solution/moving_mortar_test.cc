@@ -133,8 +133,8 @@ TEST(MovingMortar, SlidesFarAtCoulombsLimit)
   for (const int dim : {2, 3})
   {
     Blocks blocks(dim);
-    blocks.add("block", dim == 2 ? Point(0, 0.01, 0) : Point(0, 0, 0.01), dim == 2 ? Point(1, 0.8, 0) : Point(1, 1, 0.8),
-               dim == 2 ? std::array{4, 3, 0} : std::array{3, 3, 2});
+    blocks.add("block", dim == 2 ? Point(0, 0.01, 0) : Point(0, 0, 0.01),
+               dim == 2 ? Point(1, 0.8, 0) : Point(1, 1, 0.8), dim == 2 ? std::array{4, 3, 0} : std::array{3, 3, 2});
     if (dim == 2)
       blocks.add_line("floor", {{4, 0, 0}, {-2, 0, 0}}, 23);
     else

@@ -18,7 +18,8 @@ Multipliers multipliers_of(const State &state, const ContactInterface &contact, 
   return {lambda[0], {lambda[1], dim == 3 ? lambda[2] : 0}};
 }
 
-/// A node without a pair: its multipliers are zero. @param n_nodal components that its pattern has, from when it had one
+/// A node without a pair: its multipliers are zero. @param n_nodal components that its pattern has, from when it had
+/// one
 ContactElement unpaired_element(const Multipliers &lambda, int dim, double r, int n_nodal)
 {
   ContactElement out;

@@ -160,7 +160,8 @@ Eigen::Vector3d ContactInterface::relative(Index i, std::span<const double> disp
 bool ContactInterface::begin_increment(std::span<const double> start, double reach)
 {
   const auto same_face = [](const Pair &a, const Pair &b) { return a.face == b.face; };
-  bool changed = !start_pairing_.empty() && !std::equal(pairing_.begin(), pairing_.end(), start_pairing_.begin(), same_face);
+  bool changed =
+      !start_pairing_.empty() && !std::equal(pairing_.begin(), pairing_.end(), start_pairing_.begin(), same_face);
   if (changed)
   {
     pairing_ = start_pairing_;

@@ -233,14 +233,14 @@ private:
   std::optional<Shape> analytic_;
   Index shape_node_ = -1;
   std::vector<double> areas_, augmentation_;
-  std::optional<double> mortar_distance_; ///< w: the user's, once coupled what was taken
-  std::optional<MortarMeans> mortar_;     ///< small strain, once coupled
+  std::optional<double> mortar_distance_;     ///< w: the user's, once coupled what was taken
+  std::optional<MortarMeans> mortar_;         ///< small strain, once coupled
   std::optional<MovingMortar> moving_mortar_; ///< finite strain
-  Pairing pairing_, start_pairing_;       ///< now, and at the increment's beginning; faces by their ids
-  TargetFaces faces_, start_faces_;       ///< with them
-  std::vector<Index> smoothed_positions_; ///< of the whole target's nodes
-  std::vector<double> target_normals_;    ///< at the corners of its faces at the increment's beginning, or empty
-  std::vector<int> n_face_changes_;       ///< within the increment
+  Pairing pairing_, start_pairing_;           ///< now, and at the increment's beginning; faces by their ids
+  TargetFaces faces_, start_faces_;           ///< with them
+  std::vector<Index> smoothed_positions_;     ///< of the whole target's nodes
+  std::vector<double> target_normals_;        ///< at the corners of its faces at the increment's beginning, or empty
+  std::vector<int> n_face_changes_;           ///< within the increment
   std::vector<Eigen::Vector3d> slip_origin_;
   std::vector<char> has_origin_;
   std::vector<double> start_gap_;

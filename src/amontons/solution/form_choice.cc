@@ -43,8 +43,8 @@ bool has_constant_stiffness(const ProblemOptions &options)
                                                                  body.material.law == MaterialLaw::rigid;
                                                         });
 }
-/// Rows of mortar in finite strain follow the nodes round the impactor node: to eliminate them would be to solve for the
-/// whole interface.
+/// Rows of mortar in finite strain follow the nodes round the impactor node: to eliminate them would be to solve for
+/// the whole interface.
 bool has_moving_mortar(const ProblemOptions &options)
 {
   return options.strain == Strain::finite &&

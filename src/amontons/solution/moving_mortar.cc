@@ -129,9 +129,9 @@ void MovingMortar::move_to(std::span<const double> displacement)
   if (impactor_x == impactor_x_ && target_x == target_x_)
     return;
   const FaceBoxes boxes(*target_, target_x);
-  coupling_ = couple_mortar({*impactor_, impactor_x}, {*target_, target_x}, axisymmetric_, distance_,
-                            [&](const Eigen::AlignedBox3d &box, std::vector<Index> &faces) { boxes.meeting(box, faces); },
-                            {is_own_, true});
+  coupling_ = couple_mortar(
+      {*impactor_, impactor_x}, {*target_, target_x}, axisymmetric_, distance_,
+      [&](const Eigen::AlignedBox3d &box, std::vector<Index> &faces) { boxes.meeting(box, faces); }, {is_own_, true});
   impactor_x_ = std::move(impactor_x);
   target_x_ = std::move(target_x);
 }

@@ -10,9 +10,9 @@
 
 namespace amontons
 {
-/// Mortar in finite strain: the coupling of two surfaces where they are now, and the weights from which the slip of this
-/// increment counts. Each process has both surfaces whole and couples the impactor nodes that it owns; i counts these.
-/// Displacements are nodal vectors with the halo. Local.
+/// Mortar in finite strain: the coupling of two surfaces where they are now, and the weights from which the slip of
+/// this increment counts. Each process has both surfaces whole and couples the impactor nodes that it owns; i counts
+/// these. Displacements are nodal vectors with the halo. Local.
 class MovingMortar
 {
 public:
@@ -69,8 +69,8 @@ private:
 
   std::shared_ptr<const Surface> impactor_, target_;
   bool axisymmetric_;
-  std::vector<Index> own_;      ///< on the whole impactor
-  std::vector<char> is_own_;    ///< [n impactor nodes]
+  std::vector<Index> own_;   ///< on the whole impactor
+  std::vector<char> is_own_; ///< [n impactor nodes]
   std::vector<Index> impactor_positions_, target_positions_;
   std::optional<double> own_distance_;
   double face_length_ = 0, distance_ = 0;
