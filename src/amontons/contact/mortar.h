@@ -9,8 +9,11 @@
 
 namespace amontons
 {
-/// The derivatives of normals and weights with respect to the positions of the nodes of both sides: whole ones,
-/// the ends of the overlaps included.
+/// The derivatives of normals and weights with respect to the positions of the nodes of both sides: those of the
+/// numbers themselves, of the rule of integration and of the ends of the overlaps. Data are which faces see each other,
+/// which node stands in for another, and, for the normal at a sharp edge, the share of a face that is covered in part.
+/// Where an edge of the target lies on one of the impactor's the overlap ends at the impactor's: within the surfaces
+/// that is the derivative, at their rims it is that of a target that grows.
 struct MortarGradients
 {
   std::vector<Index> offsets; ///< [n impactor nodes + 1]
@@ -42,7 +45,9 @@ struct MortarCoupling
   /// n_j, [n impactor nodes], unit: minus the impactor's own normal, averaged over the faces that see the target
   std::vector<Eigen::Vector3d> normal;
   std::vector<Index> offsets; ///< [n impactor nodes + 1]
-  std::vector<Index> targets; ///< local target nodes of node j: offsets[j] .. offsets[j + 1], ascending
+  /// Local target nodes of node j: offsets[j] .. offsets[j + 1], ascending; with gradients those too whose weight
+  /// vanishes here but may change.
+  std::vector<Index> targets;
   std::vector<double> weight; ///< with them; their sum is 1 for each node that sees the target
   Index n_overlaps = 0;       ///< pairs of faces that see each other
   Index doubled_face = -1;    ///< an impactor face that sees two layers of the target, or -1

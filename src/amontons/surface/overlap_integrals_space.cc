@@ -106,12 +106,13 @@ struct CornerMotion
 class Integration
 {
 public:
-  Integration(const FlatFace &own, const FlatFace &other, bool with_gradient, OverlapIntegrals &out)
+  Integration(const FlatFace &own, const FlatFace &other, const FlatPolygon &part, bool with_gradient,
+              OverlapIntegrals &out)
     : own_(own)
     , other_(other)
+    , part_(part)
     , with_gradient_(with_gradient)
     , out_(out)
-    , part_(shared_part(own, other))
   {
   }
 
@@ -255,9 +256,9 @@ private:
   }
 
   const FlatFace &own_, &other_;
+  const FlatPolygon &part_;
   bool with_gradient_;
   OverlapIntegrals &out_;
-  FlatPolygon part_;
   Values values_{};
   Rows<FlatPolygon::max_corners> by_corner_{};
   Rows<2 * n_corners> by_node_{};
@@ -271,6 +272,8 @@ void integrate_overlap(const ProjectionPlane &plane, const FaceCoordinates &targ
   if (!faces_each_other(plane.normal(), target))
     return;
   const FlatFace other = plane.flat(target);
-  Integration(plane.own(), other, with_gradient, out).run();
+  const FlatPolygon part = shared_part(plane.own(), other);
+  if (part.n > 0)
+    Integration(plane.own(), other, part, with_gradient, out).run();
 }
 } // namespace amontons
