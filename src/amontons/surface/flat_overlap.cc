@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 
 /// Of the impactor's size: what is as near to one of its edges lies on it.
 constexpr double on_edge = 1e-10;
+/// Corners that are flat to round-off, as one part in this of the greatest, are not convex: the map is singular there.
+constexpr double flat_corner = 1e-9;
 
 double cross(const Vector2d &a, const Vector2d &b)
 {
@@ -89,7 +91,8 @@ FlatFace::FlatFace(const FaceCoordinates &face, const Vector3d &origin, const st
   }
   // A target that faces the impactor is seen turning the other way.
   sense_ = most < 0 ? -1 : 1;
-  convex_ = least > 0 || most < 0;
+  const double flat = flat_corner * std::max(std::abs(least), std::abs(most));
+  convex_ = least > flat || most < -flat;
   distortion_ = n_ == 4 && convex_ ? (most - least) / std::abs(most + least) : 0;
   // Not a distortion but round-off.
   if (distortion_ < 1e-13)
