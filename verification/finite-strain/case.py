@@ -156,5 +156,66 @@ def sphere_rows(bench):
     return rows
 
 
+def quarter_ring(made, name, radii, along, above=0.0, **sides):
+    """A quarter of a ring beside the axis x = 0: the upper one of a ring round the origin, or the lower one of a ring whose centre is `above` it.
+    Cells lie between the radii, which the upper ring has with a minus: so both keep their orientation."""
+    sign = -1 if above else 1
+    made.add(name, mesh.spaced(0, math.pi / 2, along), sorted(sign * radius for radius in radii), sides=sides,
+             moved=lambda angle, radius: (sign * radius * math.sin(angle), above + radius * math.cos(angle)))
+
+
+RINGS = (("lower", 0.6, 1.0, 0.0, "y1"), ("upper", 0.5, 0.8, 1.8, "y0"))  # inner and outer radius, height of the centre, outer side
+# Friction: depth: force / (E radius of the lower ring), by rings_getfem.py, 16 cells in 0.3.
+CRUSHED = {0.0: {0.3: 0.0179499, 0.6: 0.0344594}, 0.3: {0.3: 0.0179874, 0.6: 0.0346183}}
+
+
+def reaction(step, region):
+    """Upward reaction of a boundary at the end of an increment."""
+    return next(found["force"][1] for found in step["reactions"] if found["region"] == region)
+
+
+def ring_rows(bench):
+    """Two unlike rings crushed against each other, against another code."""
+    n, rows = bench.choose(8, 16, 32), []
+    made = mesh.Mesh(2)
+    for name, inner, outer, above, outside in RINGS:
+        quarter_ring(made, name, mesh.spaced(inner, outer, round(n * (outer - inner) / 0.3)),
+                     round(n * math.pi / 4 * (inner + outer) / 0.3), above, x0="axis", x1="middle", **{outside: "outside"})
+    file = made.write(bench.path("rings.msh"))
+    runs = bench.run_all([("rings.yaml", {"mesh.file": file, "contact.0.friction.coefficient": mu}) for mu in CRUSHED])
+    plot = Plot("Two neo-Hookean rings crushed against each other", "approach / radius", "force / (E radius)")
+    for (mu, figures), run in zip(CRUSHED.items(), runs):
+        curve = {round(0.6 * step["time"], 6): 2 * reaction(step, "lower_middle") for step in run.increments}
+        plot.add(f"mu {mu}, n {n}", list(curve.items()), "line").add(f"GetFEM, mu {mu}", list(figures.items()), "points")
+        rows += [Row(f"two rings crushed, mu {mu}, approach {depth}, n {n}: force / (E radius)", figures[depth], curve[depth],
+                     bench.choose(5e-3, 1e-3), runs=[run] if depth == 0.3 else []) for depth in figures]
+    bench.plot("rings", plot)
+    return rows
+
+
+# Of a half, N, at these shares of the way: force of the contact, by like_rings_getfem.py with our law; and the force and what holds the outermost
+# node of the middle, as Code_Aster's test SSNP501 has published them for Saint-Venant and Kirchhoff's law.
+LIKE_RINGS = {0.25: 6.78469, 0.5: 12.75966, 1.0: 25.29690}
+CODE_ASTER = {0.25: 8.78259567222, 0.5: 16.8013028173}
+
+
+def like_ring_rows(bench):
+    """Two like rings pressed against each other, each as if against a plate: published figures of another code, on its mesh."""
+    made, (along, radii) = mesh.Mesh(2), (40, mesh.spaced(4.15, 6.35, 6))
+    quarter_ring(made, "lower", radii[:-1], along, x0="axis", x1="middle")
+    quarter_ring(made, "lower", radii[-2:], along, x0="axis", y1="outside")
+    quarter_ring(made, "upper", radii, along, 2 * radii[-1], x0="axis", x1="middle", y0="outside")
+    made.point("lower_end", "lower", (radii[-1] * math.sin(math.pi / 2), radii[-1] * math.cos(math.pi / 2)))
+    run = bench.run("like-rings.yaml", {"mesh.file": made.write(bench.path("like-rings.msh"))})
+    forces, sums = {}, {}
+    for step in run.increments:
+        share, force = round(step["time"], 6), abs(step["contacts"][0]["normal_force"][1])
+        forces[share], sums[share] = force, force - reaction(step, "lower_end")
+    return ([Row(f"two like rings, {100 * share:.0f} % of 4.45 cm: force, N, GetFEM's", figure, forces[share], 2e-3, runs=[run] if share == 0.25 else [])
+             for share, figure in LIKE_RINGS.items()]
+            + [Row(f"two like rings, {100 * share:.0f} % of 4.45 cm: force and a node's support, N, Code_Aster's by another law", figure, sums[share], 2e-2)
+               for share, figure in CODE_ASTER.items()])
+
+
 def verify(bench):
-    return bar_rows(bench) + tube_rows(bench) + block_rows(bench) + sphere_rows(bench)
+    return bar_rows(bench) + tube_rows(bench) + block_rows(bench) + sphere_rows(bench) + ring_rows(bench) + like_ring_rows(bench)
