@@ -3,7 +3,7 @@
 #include "amontons/surface/overlap_integrals.h"
 
 #include "amontons/surface/quadrature.h"
-#include "amontons/surface/segmentation.h"
+#include "overlap_points.h"
 #include "surfaces.h"
 
 #include <gtest/gtest.h>

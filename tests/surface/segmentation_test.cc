@@ -1,8 +1,7 @@
 // Overlaps of faces held against areas found by other means: the intersection of convex polygons from corners inside
 // each other and crossings of edges, rays cast one by one, and parts that have to sum to the whole.
-#include "amontons/surface/segmentation.h"
-
 #include "amontons/surface/quadrature.h"
+#include "overlap_points.h"
 #include "surfaces.h"
 
 #include <gtest/gtest.h>

@@ -36,9 +36,9 @@ struct MortarGradients
 ///     g_j = n_j . (x_j - sum_k weight_jk x_k),   weight_jk = M_jk / D_jj,   M_jk = integral of Phi_j N_k(target),
 /// is the mean gap at node j. The multiplier of g_j is the nodal force, D_jj times the traction.
 ///
-/// Integrals run over the part of the impactor that sees the target (surface/segmentation.h), D too; on a face that is
-/// covered in part the dual functions are those of that part (Cichosz, Bischoff 2011; Popp, Seitz, Gee, Wall 2013), so
-/// that a uniform pressure and a linear motion pass exactly.
+/// Integrals run over the part of the impactor that sees the target (surface/overlap_integrals.h), D too; on a face
+/// that is covered in part the dual functions are those of that part (Cichosz, Bischoff 2011; Popp, Seitz, Gee, Wall
+/// 2013), so that a uniform pressure and a linear motion pass exactly.
 struct MortarCoupling
 {
   std::vector<double> area; ///< D_jj, [n impactor nodes], area covered; axisymmetry: of the ring; 0: sees nothing

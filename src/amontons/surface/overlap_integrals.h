@@ -1,11 +1,14 @@
 #pragma once
 #include "amontons/surface/flat_overlap.h"
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace amontons
 {
-/// Integrals over the part of an impactor face that sees a target face (surface/segmentation.h), and their derivatives.
+/// Integrals over the part of an impactor face that sees a target face, and their derivatives: the segmentation of
+/// contact surfaces. None where the faces do not face each other within 80 degrees, or do not overlap.
 ///
 /// Variables of the derivatives, of the impactor first:
 /// in space 0 to 7 the nodes' coordinates in the plane of projection, two a node, 8 and 9 the plane's tilt (how its
@@ -40,12 +43,26 @@ struct OverlapIntegrals
   }
 };
 
-/// In the plane. @param normals unit ones at the impactor's ends @param axisymmetric integrals over the ring, 2 pi r
+/// Whether a face faces the impactor's normal, within 80 degrees.
+inline bool faces_each_other(const Eigen::Vector3d &impactor_normal, const FaceCoordinates &target)
+{
+  static const double least = std::cos(80 * std::numbers::pi / 180);
+  return face_normal(target, face_centre(target)).dot(impactor_normal) <= -least;
+}
+
+/// In the plane: over the part of the impactor's segment between the projections of the target's ends on it, along the
+/// impactor's normal interpolated between those at its ends (Yang, Laursen, Meng 2005; Popp, Gee, Wall 2009); the
+/// projections are exact roots. The rule is exact for polynomials of degree 7.
+/// @param normals outward ones at the impactor's ends, unit length @param axisymmetric integrals over the ring, 2 pi r
 void integrate_overlap(const FaceCoordinates &impactor, const std::array<Eigen::Vector3d, 2> &normals,
                        const FaceCoordinates &target, bool axisymmetric, bool with_gradient, OverlapIntegrals &out);
 
-/// In space. The derivatives are those of the rule of integration, whose points ride on the corners of the triangles
-/// that the overlap is cut into. @throws NumericalFailure if the impactor face is not convex
+/// In space: over the plane polygon that both faces share, projected on the plane through the impactor's centre normal
+/// to it there, cut into triangles (Puso, Laursen 2004); none where the target seen along the normal is not convex.
+/// Areas are those of the plane. The rule is exact for plane triangles and parallelograms, and good to about 1e-10 on
+/// other quadrilaterals, whose shape functions are no polynomials there. The derivatives are those of the rule of
+/// integration, whose points ride on the corners of the triangles that the overlap is cut into. @throws
+/// NumericalFailure if the impactor face is not convex
 void integrate_overlap(const ProjectionPlane &plane, const FaceCoordinates &target, bool with_gradient,
                        OverlapIntegrals &out);
 } // namespace amontons

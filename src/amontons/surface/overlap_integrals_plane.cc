@@ -1,7 +1,6 @@
 #include "amontons/surface/overlap_integrals.h"
 
 #include "amontons/surface/segment_overlap.h"
-#include "amontons/surface/segmentation.h"
 
 #include <numbers>
 
