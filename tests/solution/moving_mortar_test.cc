@@ -118,8 +118,8 @@ TEST(MovingMortar, SlidesAsTheWholeTurns)
   EXPECT_EQ(a.status, b.status);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(3 * 0.4, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const double size = vector(a.normal_force).norm();
-  EXPECT_LT((turn * vector(a.normal_force) - vector(b.normal_force)).norm(), 1e-3 * size);
-  EXPECT_LT((turn * vector(a.tangential_force) - vector(b.tangential_force)).norm(), 1e-3 * size);
+  EXPECT_LT((turn * vector(a.normal_force) - vector(b.normal_force)).norm(), 1e-9 * size);
+  EXPECT_LT((turn * vector(a.tangential_force) - vector(b.tangential_force)).norm(), 1e-9 * size);
   for (const Record *run : {&still, &turned})
     for (const int iterations : run->iterations())
       EXPECT_LE(iterations, 12);

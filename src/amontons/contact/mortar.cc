@@ -61,11 +61,8 @@ public:
       const FaceCoordinates face = gather_face(impactor_.surface.dim, nodes, impactor_.x);
       faces_in_box(reach_of(f, face), candidates);
       look(f, face, candidates);
-      double seen = 0;
-      for (const SeenFace &other : seen_faces())
-        seen += other.integrals.size;
-      if (seen > (1 + overlap_tolerance) * size_of(face))
-        out_.doubled_face = f;
+      keep_nearest_layer(size_of(face));
+      out_.n_overlaps += static_cast<Index>(n_seen_);
       if (n_seen_ > 0)
         add_face(f, couple_face(face.n_nodes, size_of(face), seen_faces(), scope_.gradients));
     }
@@ -118,7 +115,24 @@ private:
       if (integrals.least_gap <= w_)
         ++n_seen_;
     }
-    out_.n_overlaps += static_cast<Index>(n_seen_);
+  }
+
+  /// Where more is seen than the face is large, the farthest go until it is not.
+  void keep_nearest_layer(double face_size)
+  {
+    double seen = 0;
+    for (const SeenFace &other : seen_faces())
+      seen += other.integrals.size;
+    while (seen > (1 + overlap_tolerance) * face_size)
+    {
+      const auto end = seen_.begin() + static_cast<std::ptrdiff_t>(n_seen_);
+      const auto farthest = std::max_element(seen_.begin(), end,
+                                             [](const SeenFace &a, const SeenFace &b)
+                                             { return a.integrals.least_gap < b.integrals.least_gap; });
+      seen -= farthest->integrals.size;
+      std::rotate(farthest, farthest + 1, end);
+      --n_seen_;
+    }
   }
 
   void add_face(Index f, FaceCoupling face)

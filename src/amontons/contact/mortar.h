@@ -50,7 +50,6 @@ struct MortarCoupling
   std::vector<Index> targets;
   std::vector<double> weight; ///< with them; their sum is 1 for each node that sees the target
   Index n_overlaps = 0;       ///< pairs of faces that see each other
-  Index doubled_face = -1;    ///< an impactor face that sees two layers of the target, or -1
   MortarGradients gradients;  ///< empty unless asked for
 
   [[nodiscard]] bool sees_target(Index j) const { return area[j] > 0; }
@@ -84,7 +83,8 @@ struct MortarScope
 };
 
 /// @param axisymmetric integrals over the ring, 2 pi r
-/// @param w pairs of faces that nowhere come within this distance of each other do not count, length
+/// @param w pairs of faces that nowhere come within this distance of each other do not count, length. Where an impactor
+/// face sees more than its own size, of target layers behind one another, the nearer counts.
 /// A node of which a face covers less than 1e-6 of its share carries no multiplier there: the best covered node of that
 /// face stands in for it, for values extrapolated from a sliver would be noise.
 /// The impactor's adjacency must be built. @throws NumericalFailure if an impactor face is not convex

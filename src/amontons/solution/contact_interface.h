@@ -218,7 +218,6 @@ private:
   void require_meshed_sides() const;
   bool start_mortar(std::span<const double> start, double reach);
   void couple_reference(double reach);
-  [[nodiscard]] UserError two_layers(const Eigen::Vector3d &middle, double w) const;
   [[nodiscard]] DetectionReport mortar_report() const;
   void set_face(Index i, const Pair &pair, const Surface &target);
   [[nodiscard]] bool keeps_face(Index i, const Pair &found, GlobalIndex face,

@@ -24,15 +24,6 @@ void ContactInterface::require_meshed_sides() const
     throw UserError(options_.where, contact + "wants two sides; where a surface touches itself take node-to-face");
 }
 
-UserError ContactInterface::two_layers(const Eigen::Vector3d &middle, double w) const
-{
-  return {options_.where, "contact '" + options_.name + "': the impactor's face at (" + std::to_string(middle.x()) +
-                              ", " + std::to_string(middle.y()) + ", " + std::to_string(middle.z()) +
-                              ") sees two layers of the target, which mortar cannot tell apart; set "
-                              "'detection: distance' below the distance of the farther one, now " +
-                              std::to_string(w)};
-}
-
 bool ContactInterface::start_mortar(std::span<const double> start, double reach)
 {
   moving_mortar_->set_reach(reach);
@@ -47,8 +38,6 @@ bool ContactInterface::couple(std::span<const double> displacement, double reach
   {
     moving_mortar_->set_reach(reach);
     moving_mortar_->move_to(displacement);
-    if (const auto middle = moving_mortar_->doubled_face())
-      throw two_layers(*middle, moving_mortar_->distance());
     return moving_mortar_->take_nodes(false);
   }
   couple_reference(reach);
@@ -63,11 +52,6 @@ void ContactInterface::couple_reference(double reach)
   const MortarCoupling whole =
       couple_mortar({impactor, impactor.reference}, {target, target.reference}, axisymmetric_, w,
                     [&](const Eigen::AlignedBox3d &box, std::vector<Index> &faces) { boxes.meeting(box, faces); });
-  if (const Index f = whole.doubled_face; f >= 0)
-  {
-    const FaceCoordinates face = gather_face(dim_, impactor.face(f), impactor.reference);
-    throw two_layers(face_point(face, face_centre(face)), w);
-  }
   MortarMeans &means = mortar_.emplace();
   for (Index i = 0; i < n_nodes(); ++i)
   {

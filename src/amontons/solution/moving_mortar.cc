@@ -156,14 +156,6 @@ bool MovingMortar::take_nodes(bool forget)
   return changed;
 }
 
-std::optional<Eigen::Vector3d> MovingMortar::doubled_face() const
-{
-  if (coupling_.doubled_face < 0)
-    return {};
-  const FaceCoordinates face = gather_face(impactor_->dim, impactor_->face(coupling_.doubled_face), impactor_x_);
-  return face_point(face, face_centre(face));
-}
-
 std::vector<Index> MovingMortar::nodes(Index i) const
 {
   std::vector<Index> out{impactor_positions_[own_[i]]};

@@ -35,8 +35,6 @@ public:
   /// Takes what the present coupling and the origins of slip need into nodes(), which otherwise only grow, so that
   /// patterns seldom change. @param forget leave out what is not needed now @return whether nodes() changed
   bool take_nodes(bool forget);
-  /// The point within an impactor face that sees two layers of the target, if there is one.
-  [[nodiscard]] std::optional<Eigen::Vector3d> doubled_face() const;
 
   [[nodiscard]] bool sees_target(Index i) const { return coupling_.sees_target(own_[i]); }
   /// Positions on the process of the nodes that element i is over: the impactor node, others of the impactor, the
