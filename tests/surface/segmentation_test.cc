@@ -252,5 +252,31 @@ TEST(Segmentation, LongSegmentsAreSeenWhole)
             << angle << ' ' << end << ' ' << length;
       }
 }
+
+// A round face above a long flat one: the normals of its sides meet behind it, and what lies beyond there they do not
+// see, however far they look. Each ray that goes down meets the flat once, in one piece or in many.
+TEST(Segmentation, NothingIsSeenBehindWhereNormalsMeet)
+{
+  const auto at = [](double angle) { return Vector2d(std::sin(angle), 1.2 - std::cos(angle)); };
+  const double step = 0.2;
+  for (const int pieces : {1, 3, 40})
+    for (double angle = -1.1; angle < 1; angle += step)
+    {
+      const FaceCoordinates impactor = segment(at(angle), at(angle + step));
+      const auto outward = [](double a) { return Vector3d(std::sin(a), -std::cos(a), 0); };
+      const std::array<Vector3d, 2> normals{outward(angle), outward(angle + step)};
+      double size = 0, gap = 0;
+      for (int k = 0; k < pieces; ++k)
+      {
+        const FaceCoordinates target = segment({20 - 40. * k / pieces, 0}, {20 - 40. * (k + 1) / pieces, 0});
+        const FaceOverlap overlap = overlap_of_segments(impactor, normals, target);
+        size += overlap.size;
+        for (const OverlapPoint &point : overlap.points)
+          gap = std::max(gap, std::abs(point.gap));
+      }
+      EXPECT_NEAR(size, (impactor.x[1] - impactor.x[0]).norm(), 1e-12) << pieces << ' ' << angle;
+      EXPECT_LT(gap, 1.2 / std::cos(1.1));
+    }
+}
 } // namespace
 } // namespace amontons::test

@@ -133,8 +133,8 @@ MatrixXd MortarGradientAssembly::weight_gradient(const std::vector<Round> &aroun
   const auto n_targets = static_cast<Eigen::Index>(targets.size());
   const Eigen::Index first_target = dim * static_cast<Eigen::Index>(impactors.size());
   const Eigen::Map<const Eigen::VectorXd> weights(coupling.weights_of(j).data(), n_targets);
-  RowMatrix out = RowMatrix::Zero(n_targets, first_target + dim * n_targets);
-  Eigen::RowVectorXd area = Eigen::RowVectorXd::Zero(out.cols());
+  // The rows of M, that of D below.
+  RowMatrix sums = RowMatrix::Zero(n_targets + 1, first_target + dim * n_targets);
   std::vector<Eigen::Index> columns;
   for (const auto &[face, corner, normal, turning] : around)
   {
@@ -142,7 +142,6 @@ MatrixXd MortarGradientAssembly::weight_gradient(const std::vector<Round> &aroun
     columns.clear();
     add_columns(dim, face->nodes, impactors, 0, columns);
     add_columns(dim, seen, targets, first_target, columns);
-    // By positions: the row of D below those of M.
     const auto n_seen = static_cast<Eigen::Index>(seen.size());
     RowMatrix rows(n_seen + 1, face->coupling.own_gradient.cols());
     rows << face->coupling.mortar_gradient[corner], face->coupling.own_gradient.row(static_cast<Eigen::Index>(corner));
@@ -150,14 +149,14 @@ MatrixXd MortarGradientAssembly::weight_gradient(const std::vector<Round> &aroun
     by.leftCols(face->own.cols()).noalias() = rows.leftCols<n_own>() * face->own;
     for (Eigen::Index t = 0; t < n_seen; ++t)
       by.middleCols(face->own.cols() + dim * t, dim).noalias() = rows.middleCols<2>(n_own + 2 * t) * face->target;
-    for (std::size_t c = 0; c < columns.size(); ++c)
+    for (Eigen::Index t = 0; t <= n_seen; ++t)
     {
-      for (Eigen::Index t = 0; t < n_seen; ++t)
-        out(find(targets, seen[static_cast<std::size_t>(t)]), columns[c]) += by(t, static_cast<Eigen::Index>(c));
-      area[columns[c]] += by(n_seen, static_cast<Eigen::Index>(c));
+      const Eigen::Index row = t == n_seen ? n_targets : find(targets, seen[static_cast<std::size_t>(t)]);
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        sums(row, columns[c]) += by(t, static_cast<Eigen::Index>(c));
     }
   }
-  return (out - weights * area) / coupling.area[j];
+  return (sums.topRows(n_targets) - weights * sums.bottomRows<1>()) / coupling.area[j];
 }
 
 // Of the direction of sum own normal. The own of a face that is covered in part is a datum here.

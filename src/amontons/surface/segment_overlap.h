@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -41,8 +41,10 @@ struct NormalField
   {
   }
 
-  /// xi with (x(xi) - y) x n(xi) = 0: of the two roots the one that stays where the normals become parallel. The other
-  /// one, where the normals would lie along the segment, may be the nearer for a point far off.
+  [[nodiscard]] PlaneVector<Scalar> normal_at(const Scalar &xi) const { return normal + xi * turn; }
+
+  /// xi with (x(xi) - y) x n(xi) = 0: of the two roots the one for which y lies on this side of where neighbouring
+  /// normals cross, which is the one that stays where the normals become parallel.
   [[nodiscard]] std::optional<Scalar> project(const PlaneVector<Scalar> &y) const
   {
     using std::sqrt;
@@ -58,6 +60,25 @@ struct NormalField
       return {};
     return -2. * c / denominator;
   }
+
+  /// Where on a target, [0, 1] from its start to its end, the normal through xi meets it.
+  [[nodiscard]] Scalar meets(const Segment<Scalar> &target, const Scalar &xi) const
+  {
+    const PlaneVector<Scalar> n = normal_at(xi);
+    return cross<Scalar>(x + xi * edge - target.start, n) / cross<Scalar>(target.end - target.start, n);
+  }
+
+  /// Whether it meets the target from outside, and before neighbouring normals cross.
+  [[nodiscard]] bool sees(const Segment<Scalar> &target, const Scalar &xi) const
+  {
+    const PlaneVector<Scalar> n = normal_at(xi), along = target.end - target.start;
+    const Scalar eta = meets(target, xi);
+    if (!(value_of(eta) >= 0 && value_of(eta) <= 1 && value_of(cross<Scalar>(along, n)) > 0))
+      return false;
+    const PlaneVector<Scalar> way = target.start + eta * along - x - xi * edge;
+    const Scalar near = cross<Scalar>(edge, n), there = near + way.dot(n) / n.dot(n) * cross<Scalar>(turn, n);
+    return value_of(near) * value_of(there) > 0;
+  }
 };
 
 /// A point of the overlap; the weight of integration is a length.
@@ -68,25 +89,39 @@ struct SegmentPoint
   double gap;
 };
 
-/// The ends of an overlap, ascending; where the impactor ends, or within 1e-10 of there, they do not move.
+/// The parts of the impactor that see the target, between the projections of its ends; where the impactor ends, or
+/// within 1e-10 of there, the ends of the parts do not move. Shorter than 1e-12 they are none.
 template<class Scalar>
-std::optional<std::pair<Scalar, Scalar>> overlap_ends(const NormalField<Scalar> &field, const Segment<Scalar> &target)
+struct VisibleParts
 {
-  constexpr double least = 1e-12, at_end = 1e-10;
-  const auto first = field.project(target.start), second = field.project(target.end);
-  if (!first || !second)
-    return {};
-  const bool in_order = value_of(*first) <= value_of(*second);
-  const auto clipped = [](const Scalar &xi)
+  VisibleParts(const NormalField<Scalar> &field, const Segment<Scalar> &target)
   {
-    const double value = std::clamp(value_of(xi), 0.0, 1.0);
-    return value <= at_end || value >= 1 - at_end ? Scalar(value) : xi;
-  };
-  const Scalar from = clipped(in_order ? *first : *second), to = clipped(in_order ? *second : *first);
-  if (value_of(to) - value_of(from) < least)
-    return {};
-  return std::pair(from, to);
-}
+    add(Scalar(0));
+    for (const auto &xi : {field.project(target.start), field.project(target.end)})
+      if (xi && value_of(*xi) > 0 && value_of(*xi) < 1)
+        add(*xi);
+    if (n == 3 && value_of(ends[1]) > value_of(ends[2]))
+      std::swap(ends[1], ends[2]);
+    add(Scalar(1));
+    for (int i = 0; i + 1 < n; ++i)
+    {
+      const double from = value_of(ends[i]), to = value_of(ends[i + 1]);
+      visible[i] = to - from >= 1e-12 && field.sees(target, Scalar(0.5 * (from + to)));
+    }
+  }
+
+  int n = 0;
+  std::array<Scalar, 4> ends;    ///< ascending
+  std::array<bool, 3> visible{}; ///< from ends[i] to ends[i + 1]
+
+private:
+  void add(const Scalar &xi)
+  {
+    constexpr double at_end = 1e-10;
+    const double value = value_of(xi);
+    ends[n++] = value <= at_end || value >= 1 - at_end ? Scalar(value) : xi;
+  }
+};
 
 /// add(SegmentPoint) for each point of a rule that is exact for polynomials of degree 7. @return the overlap's length
 template<class Scalar, class Add>
@@ -96,20 +131,24 @@ Scalar visit_overlap(const Segment<Scalar> &impactor, const Segment<Scalar> &nor
   using std::sqrt;
   constexpr int n_points = 4;
   const NormalField<Scalar> field(impactor, normals);
-  const auto ends = overlap_ends(field, target);
-  if (!ends)
-    return 0;
-  const Scalar share = ends->second - ends->first, size = share * sqrt(field.edge.dot(field.edge));
+  const VisibleParts<Scalar> parts(field, target);
   const PlaneVector<Scalar> along = target.end - target.start;
-  for (const GaussPoint &point : gauss_rule(n_points))
+  Scalar whole = 0;
+  for (int i = 0; i + 1 < parts.n; ++i)
   {
-    const Scalar xi = ends->first + share * point.x;
-    const PlaneVector<Scalar> rest = field.x + xi * field.edge - target.start, n = field.normal + xi * field.turn;
-    const Scalar eta = cross<Scalar>(rest, n) / cross<Scalar>(along, n);
-    const PlaneVector<Scalar> way = eta * along - rest;
-    const double gap = value_of(way.dot(n)) / std::sqrt(value_of(n.dot(n)));
-    add(SegmentPoint<Scalar>{xi, eta, size * point.weight, gap});
+    if (!parts.visible[i])
+      continue;
+    const Scalar share = parts.ends[i + 1] - parts.ends[i], size = share * sqrt(field.edge.dot(field.edge));
+    whole += size;
+    for (const GaussPoint &point : gauss_rule(n_points))
+    {
+      const Scalar xi = parts.ends[i] + share * point.x, eta = field.meets(target, xi);
+      const PlaneVector<Scalar> n = field.normal_at(xi);
+      const PlaneVector<Scalar> way = target.start + eta * along - field.x - xi * field.edge;
+      const double gap = value_of(way.dot(n)) / std::sqrt(value_of(n.dot(n)));
+      add(SegmentPoint<Scalar>{xi, eta, size * point.weight, gap});
+    }
   }
-  return size;
+  return whole;
 }
 } // namespace amontons
