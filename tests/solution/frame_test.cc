@@ -70,14 +70,15 @@ Vector components(const Frame &frame, const std::string &x, const std::string &y
 enum class Base
 {
   deformable,
+  coupled, ///< deformable, surface to surface
   rigid,
 };
 
 void add_base(Blocks &blocks, Base base, int dim)
 {
-  if (base == Base::deformable && dim == 2)
+  if (base != Base::rigid && dim == 2)
     blocks.add("base", {-1.5, -0.6, 0}, {3.1, 0.6, 0}, {16, 3, 0});
-  else if (base == Base::deformable)
+  else if (base != Base::rigid)
     blocks.add("base", {-1.1, -0.8, -0.5}, {2.3, 1.5, 0.5}, {7, 3, 1});
   else if (dim == 2)
     blocks.add_line("base", {{1.6, 0.1, 0}, {0.1, -0.03, 0}, {-1.5, 0.1, 0}}, 5);
@@ -104,17 +105,17 @@ Problem rounded_slider(const Frame &frame, Base base, double mu)
     blocks.add("slider", {-0.56, -0.41, 0}, {1.21, 0.7, 0.7}, {4, 2, 2}, rounded);
   Problem problem(blocks, dim == 2 ? Kinematics::plane_strain : Kinematics::three_dimensional, Strain::finite);
   problem.elastic("slider", 2, 0.2);
-  if (base == Base::deformable)
+  if (base != Base::rigid)
     problem.elastic("base");
   else
     problem.rigid("base");
-  problem.contact("slider_bottom", base == Base::deformable ? "base_top" : "base", mu);
-  BoundaryOptions &ground = problem.on(base == Base::deformable ? "base_bottom" : "base");
+  problem.contact("slider_bottom", base == Base::rigid ? "base" : "base_top", mu).discretization =
+      base == Base::coupled ? Discretization::mortar : Discretization::node_to_face;
+  BoundaryOptions &ground = problem.on(base == Base::rigid ? "base" : "base_bottom");
   ground.displacement = frame.displacement(components(frame, "0", "0", "0"));
   if (base == Base::rigid)
     ground.rotation[dim == 2 ? 2 : 1] = expression(frame.turning());
-  const std::string drag = "0.3*max(t-0.4,0)",
-                    press = base == Base::deformable ? "-0.25*min(t,0.4)" : "-0.15*min(t,0.4)";
+  const std::string drag = "0.3*max(t-0.4,0)", press = base == Base::rigid ? "-0.15*min(t,0.4)" : "-0.25*min(t,0.4)";
   problem.on("slider_top").displacement = frame.displacement(components(frame, drag, "0.05*t", press));
   problem.on("slider_left").traction = frame.seen(components(frame, "0.02*t", "0.01*t", "0"));
   problem.options.loading.increments = 10;
@@ -143,7 +144,8 @@ TEST_P(FrameIndifference, SameIterationsAndTheSameForces)
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FrameIndifference,
-                         testing::Combine(testing::Values(2, 3), testing::Values(Base::deformable, Base::rigid),
+                         testing::Combine(testing::Values(2, 3),
+                                          testing::Values(Base::deformable, Base::coupled, Base::rigid),
                                           testing::Values(0.0, 0.3)));
 } // namespace
 } // namespace amontons::test

@@ -93,7 +93,7 @@ def bodies(path, dimension, frame):
     return made.write(path)
 
 
-def deck(bench, dimension, name, frame, mu, drag):
+def deck(bench, dimension, name, frame, mu, drag, element):
     """Deck and settings of a run."""
     up = AXES[dimension - 1]
     load = [f"{drag}*max(t-1,0)", f"{drag / 2}*max(t-1,0)", "-0.12*min(t,1)"]
@@ -102,7 +102,7 @@ def deck(bench, dimension, name, frame, mu, drag):
     return f"{'space' if dimension == 3 else 'plane'}.yaml", {
         "mesh.file": path, "boundary.0.displacement": frame.displacement(["0"] * dimension),
         "boundary.1.displacement": frame.displacement(load), "boundary.1.region": f"block_{up}1",
-        "contact.0.friction.coefficient": mu}
+        "contact.0.friction.coefficient": mu, "contact.0.discretization": element}
 
 
 def nodal_difference(run, frame, reference, dimension):
@@ -124,19 +124,20 @@ def history_difference(run, reference):
     return max(abs(a - b) for (_, a), (_, b) in pairs) / max(b for _, (_, b) in pairs)
 
 
-# Friction, how far the block is dragged, when the frame begins to move.
-VARIANTS = [("no friction, within a face", 0.0, 0.03, 0), ("no friction, over faces", 0.0, 0.35, 0),
-            ("friction, moving once pressed", 0.3, 0.03, 1), ("friction, over faces", 0.3, 0.35, 0)]
+# Friction, how far the block is dragged, when the frame begins to move, how surfaces are coupled.
+VARIANTS = [("no friction, within a face", 0.0, 0.03, 0, "node-to-face"), ("no friction, over faces", 0.0, 0.35, 0, "node-to-face"),
+            ("friction, moving once pressed", 0.3, 0.03, 1, "node-to-face"), ("friction, over faces", 0.3, 0.35, 0, "node-to-face"),
+            ("mortar, no friction, over faces", 0.0, 0.35, 0, "mortar"), ("mortar, friction, over faces", 0.3, 0.35, 0, "mortar")]
 
 
 def verify(bench):
     rows = []
     for dimension, space in bench.choose([(2, "plane")], [(2, "plane"), (3, "space")]):
-        for variant, mu, drag, begin in bench.choose(VARIANTS[::2], VARIANTS):
+        for variant, mu, drag, begin, element in bench.choose(VARIANTS[:4:2], VARIANTS):
             frames = {"still": Frame(dimension, False, False, 0), "turned before": Frame(dimension, True, False, 1),
                       "turned before and moving": Frame(dimension, True, True, 3, begin),
                       "turned before and moving in jerks": Frame(dimension, True, True, 4, begin, jerks=0.3)}
-            reference, *others = bench.run_all([deck(bench, dimension, f"{variant}-{name}", frame, mu, drag)
+            reference, *others = bench.run_all([deck(bench, dimension, f"{variant}-{name}", frame, mu, drag, element)
                                                 for name, frame in frames.items()])
             for (name, frame), run in zip(list(frames.items())[1:], others):
                 difference = max(nodal_difference(run, frame, reference, dimension), history_difference(run, reference))

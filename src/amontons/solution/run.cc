@@ -4,6 +4,7 @@
 #include "amontons/base/error.h"
 #include "amontons/parallel/agreement.h"
 #include "amontons/solution/form_choice.h"
+#include "amontons/solution/given_motions.h"
 #include "amontons/solution/newton.h"
 #include "amontons/solution/start.h"
 
@@ -50,6 +51,7 @@ public:
           options, communicator.size() > 1 ? std::make_shared<MessageExchange>(communicator) : nullptr);
     }
     const auto scope = timers_.measure("setup");
+    given_ = std::make_unique<GivenMotions>(*model_);
     state_ = model_->initial_state();
     if (!model_->nodes().true_on_all(model_->bodies().assemble_tangent(model_->mesh_part(state_.displacement), 0)))
       throw InternalError("a cell is inside out at the start");
@@ -227,10 +229,26 @@ private:
     solvers_.erase(solvers_.begin());
   }
 
-  /// Twice the largest motion expected in the increment.
+  /// How far any node of any process goes from one state to another.
+  [[nodiscard]] double largest_motion(const State &from, const State &to) const
+  {
+    double largest2 = 0;
+    const int dim = model_->dim();
+    for (std::size_t i = 0; i < to.displacement.size(); i += dim)
+    {
+      double way2 = 0;
+      for (int c = 0; c < dim; ++c)
+        way2 += std::pow(to.displacement[i + c] - from.displacement[i + c], 2);
+      largest2 = std::max(largest2, way2);
+    }
+    return std::sqrt(model_->nodes().maximum_over_processes(largest2));
+  }
+
+  /// Twice the largest motion expected from the present state until a time, as the observer sees it.
   [[nodiscard]] double reach(double from, double to) const
   {
-    double reach = 2 * std::max(model_->prescribed_motion(from, to), last_motion_);
+    const State carried = given_->moved(state_, given_->of_observer(state_, model_->prescribe(state_, to, 1)));
+    double reach = 2 * std::max(largest_motion(carried, model_->prescribe(carried, to, 1)), last_motion_);
     if (from == 0 || last_motion_ == 0)
       for (const ContactInterface &contact : model_->contacts())
         reach = std::max(reach, 2 * separation_and_extent(*model_, contact).first);
@@ -265,10 +283,7 @@ private:
 
   SolutionState accept(State &next, double time)
   {
-    last_motion_ = 0;
-    for (std::size_t i = 0; i < next.displacement.size(); ++i)
-      last_motion_ = std::max(last_motion_, std::abs(next.displacement[i] - state_.displacement[i]));
-    last_motion_ = model_->nodes().maximum_over_processes(last_motion_);
+    last_motion_ = largest_motion(given_->moved(state_, given_->of_observer(state_, next)), next);
     start_ = std::move(state_);
     state_ = std::move(next);
     time_ = time;
@@ -284,6 +299,7 @@ private:
   Timers timers_;
   Counters counters_;
   std::unique_ptr<Model> model_;
+  std::unique_ptr<GivenMotions> given_;
   std::unique_ptr<Newton> newton_;
   LinearSolverType solver_ = LinearSolverType::automatic; ///< that is at work
   std::vector<LinearSolverType> solvers_;                 ///< that may yet be taken
