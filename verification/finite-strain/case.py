@@ -42,17 +42,21 @@ def compressed(law, stretch, dimension):
 
 
 def bar_rows(bench):
-    """Two blocks between frictionless rigid planes, shortened to 60 %: a uniform state."""
+    """Two blocks between frictionless rigid planes, shortened to 60 %: a uniform state, on matching meshes and, surface to surface, on any."""
     law, rows = NeoHooke(1.0, 0.3), []
     for dimension, deck in ((2, "bar-plane.yaml"), (3, "bar-space.yaml")):
-        made, side = mesh.Mesh(dimension), mesh.spaced(0, 1, 3)
-        made.add("lower", *[side] * (dimension - 1), mesh.spaced(0, 1, 3)).add("upper", *[side] * (dimension - 1), mesh.spaced(1, 2, 3))
-        run = bench.run(deck, {"mesh.file": made.write(bench.path(f"bar-{dimension}.msh"))})
         across, pressure = compressed(law, 0.6, dimension)
-        nodes, corner = run.nodes(), max(run.nodes(), key=lambda node: node["x"] + node["y"])
-        rows += [Row(f"{('plane strain', 'space')[dimension - 2]}, shortened to 60 %: worst pressure, over the reference area", pressure,
-                     max((node["pressure"] for node in nodes), key=lambda p: abs(p - pressure)), 1e-8, runs=[run]),
-                 Row(f"{('plane strain', 'space')[dimension - 2]}, shortened to 60 %: stretch across", across, 1 + corner["ux"], 1e-8)]
+        for n_upper, meshes, element in ((3, "matching", "node-to-face"), (4, "not matching", "mortar")):
+            made = mesh.Mesh(dimension)
+            for body, n, low in (("lower", 3, 0), ("upper", n_upper, 1)):
+                made.add(body, *[mesh.spaced(0, 1, n)] * (dimension - 1), mesh.spaced(low, low + 1, n))
+            run = bench.run(deck, {"mesh.file": made.write(bench.path(f"bar-{dimension}-{n_upper}.msh")), "contact.0.discretization": element})
+            label = f"{('plane strain', 'space')[dimension - 2]}, {meshes}, {element}, shortened to 60 %"
+            nodes = run.nodes()
+            corner = max(nodes, key=lambda node: node["x"] + node["y"])
+            rows += [Row(f"{label}: worst pressure, over the reference area", pressure,
+                         max((node["pressure"] for node in nodes), key=lambda p: abs(p - pressure)), 1e-8, runs=[run]),
+                     Row(f"{label}: stretch across", across, 1 + corner["ux"], 1e-8)]
     return rows
 
 
