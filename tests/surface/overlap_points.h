@@ -29,12 +29,11 @@ inline FaceOverlap overlap_of_segments(const FaceCoordinates &impactor, const st
   const auto segment = [](const Eigen::Vector3d &start, const Eigen::Vector3d &end) {
     return Segment<double>{start.head<2>(), end.head<2>()};
   };
-  if (faces_each_other(face_normal(impactor, {0, 0}), target))
-    out.size = visit_overlap<double>(segment(impactor.x[0], impactor.x[1]), segment(normals[0], normals[1]),
-                                     segment(target.x[0], target.x[1]),
-                                     [&](const SegmentPoint<double> &point) {
-                                       out.points.push_back({{point.xi, 0}, {point.eta, 0}, point.weight, point.gap});
-                                     });
+  out.size = visit_overlap<double>(segment(impactor.x[0], impactor.x[1]), segment(normals[0], normals[1]),
+                                   segment(target.x[0], target.x[1]),
+                                   [&](const SegmentPoint<double> &point) {
+                                     out.points.push_back({{point.xi, 0}, {point.eta, 0}, point.weight, point.gap});
+                                   });
   return out;
 }
 

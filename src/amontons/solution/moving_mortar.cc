@@ -12,6 +12,9 @@ namespace amontons
 {
 namespace
 {
+/// Diagonals of a face that the distance is at least, so that what a node in contact sees of steep sides is all there.
+constexpr double least_reach = 3;
+
 Index place_in(const std::vector<Index> &nodes, Index node)
 {
   return static_cast<Index>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
@@ -106,7 +109,7 @@ void MovingMortar::place(const std::function<Index(GlobalIndex)> &position_of)
 
 void MovingMortar::set_reach(double reach)
 {
-  const double distance = own_distance_.value_or(std::max(reach, face_length_));
+  const double distance = own_distance_.value_or(std::max(reach, least_reach * face_length_));
   if (distance != distance_)
     impactor_x_.clear();
   distance_ = distance;

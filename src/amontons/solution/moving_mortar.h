@@ -17,7 +17,7 @@ class MovingMortar
 {
 public:
   /// Nodes of the surfaces go by ids. @param own ids of the own impactor nodes
-  /// @param own_distance the user's; absent: a length of a face, or farther where more comes within reach
+  /// @param own_distance the user's; absent: some lengths of a face, or farther where more comes within reach
   MovingMortar(std::shared_ptr<const Surface> impactor, std::shared_ptr<const Surface> target, bool axisymmetric,
                std::span<const GlobalIndex> own, std::optional<double> own_distance);
 

@@ -8,7 +8,7 @@
 namespace amontons
 {
 /// Integrals over the part of an impactor face that sees a target face, and their derivatives: the segmentation of
-/// contact surfaces. None where the faces do not face each other within 80 degrees, or do not overlap.
+/// contact surfaces. None where the faces do not face each other, or do not overlap.
 ///
 /// Variables of the derivatives, of the impactor first:
 /// in space 0 to 7 the nodes' coordinates in the plane of projection, two a node, 8 and 9 the plane's tilt (how its
@@ -43,10 +43,11 @@ struct OverlapIntegrals
   }
 };
 
-/// Whether a face faces the impactor's normal, within 80 degrees.
+/// Whether a face faces the impactor's normal, within 89 degrees: by then what is seen of it is hardly anything, and it
+/// goes out of sight without a jump.
 inline bool faces_each_other(const Eigen::Vector3d &impactor_normal, const FaceCoordinates &target)
 {
-  static const double least = std::cos(80 * std::numbers::pi / 180);
+  static const double least = std::cos(89 * std::numbers::pi / 180);
   return face_normal(target, face_centre(target)).dot(impactor_normal) <= -least;
 }
 

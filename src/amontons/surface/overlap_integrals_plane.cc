@@ -85,8 +85,6 @@ void integrate_overlap(const FaceCoordinates &impactor, const std::array<Vector3
                        const FaceCoordinates &target, bool axisymmetric, bool with_gradient, OverlapIntegrals &out)
 {
   out.reset(with_gradient);
-  if (!faces_each_other(face_normal(impactor, {0, 0}), target))
-    return;
   if (with_gradient)
     integrate<Dual<n_plane_variables>>(impactor, normals, target, axisymmetric, out);
   else
