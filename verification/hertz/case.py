@@ -129,8 +129,8 @@ def rows(label, runs, meshes, pair, sectors, tolerances):
     return found
 
 
-def profile_plot(run, pair, title):
-    total, nodes = force(run, 1), [node for node in radial(run) if node["x"] <= 1.25 * EDGE]
+def profile_plot(run, pair, sectors, title):
+    total, nodes = force(run, sectors), [node for node in radial(run) if node["x"] <= 1.25 * EDGE]
     edge, peak = pair.edge(total), pair.peak(total)
     return (Plot(title, "r/a", "p/p0").add("computed", [(node["x"] / edge, node["pressure"] / peak) for node in nodes], "points")
             .add("Hertz", [(k / 200, math.sqrt(1 - (k / 200) ** 2)) for k in range(201)]))
@@ -169,7 +169,7 @@ def verify(bench):
         runs = bench.run_all([deck(bench, 2, equal, n) for n in axisymmetric])
         found += rows(f"{label}, axisymmetric", runs, axisymmetric, pair, 1, tolerances[2])
         bench.plot("equal-pressure" if equal else "rigid-pressure",
-                   profile_plot(runs[-1], pair, f"Hertz, {label}: pressure, n {axisymmetric[-1]}"))
+                   profile_plot(runs[-1], pair, 1, f"Hertz, {label}: pressure, n {axisymmetric[-1]}"))
         if not equal:
             approach = [pair.approach(EDGE) * step["time"] for step in runs[-1].increments]
             bench.plot("force", Plot(f"Hertz, {label}: force against approach", "approach / R", "F / (E R^2)")
@@ -178,4 +178,6 @@ def verify(bench):
         if space:
             runs = [bench.run(*deck(bench, 3, equal, n)) for n in space]  # one at a time, for their memory
             found += rows(f"{label}, quarter in space", runs, space, pair, 4, tolerances[3])
+            if not equal:
+                bench.plot("space-pressure", profile_plot(runs[-1], pair, 4, f"Hertz, {label} in space: pressure, n {space[-1]}"))
     return found + cylinder_rows(bench, bench.choose(16, 60))
