@@ -66,7 +66,7 @@ def curved_blocks(cells):
     return mesh
 
 
-def write_deck(path, friction=0, increments=1, end=1, slide=0, tied=False, linear="auto"):
+def write_deck(path, friction=0, increments=1, end=1, slide=0, tied=False, linear="auto", discretization="node-to-face"):
     """A deck beside blocks.msh: down by 0.02 and along x by `slide` in t from 0 to 1, run to `end`. Returns its path."""
     contact = "tied: true" if tied else (f"friction: {{law: coulomb, coefficient: {friction}}}" if friction > 0
                                          else "friction: {law: none}")
@@ -76,7 +76,7 @@ bodies:
   - {{name: lower, region: lower, material: {{law: linear-elastic, young: 1000, poisson: 0.3}}}}
   - {{name: upper, region: upper, material: {{law: linear-elastic, young: 1000, poisson: 0.3}}}}
 contact:
-  - {{name: interface, impactor: upper_bottom, target: lower_top, {contact}}}
+  - {{name: interface, impactor: upper_bottom, target: lower_top, discretization: {discretization}, {contact}}}
 boundary:
   - {{region: lower_bottom, fix: [x, y, z]}}
   - {{region: upper_top, displacement: {{x: "{slide}*t", y: 0, z: "-0.02*t"}}}}
@@ -97,6 +97,7 @@ def main():
     parser.add_argument("--slide", type=float, default=0)
     parser.add_argument("--tied", action="store_true")
     parser.add_argument("--linear", default="auto")
+    parser.add_argument("--discretization", default="node-to-face")
     options = vars(parser.parse_args())
     folder = options.pop("folder")
     folder.mkdir(parents=True, exist_ok=True)

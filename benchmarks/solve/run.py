@@ -3,7 +3,8 @@
 
     run.py AMONTONS [--quick] [--calculix] [--only CASE] --json FILE
 
-Cases: curved-blocks (3D, small strain, mu = 0 and 0.3; one increment and several), punch (2D), sliding (3D, finite strain).
+Cases: curved-blocks (3D, small strain, mu = 0 and 0.3; one increment and several), punch (2D), sliding (3D, finite strain), mortar
+(surface to surface against nodes to faces: the blocks and the sliding).
 The tied solve is by the fastest of our own solvers at that size, in the same run; plain multigrid CG is one of them.
 Times are of the solution alone: set-up, detection, assembly, linear set-up and solve; reading the mesh and output apart.
 CalculiX solves the same meshes where it is installed: *TIE for the tied solve, its node-to-surface hard contact else.
@@ -23,6 +24,7 @@ import curved_blocks
 
 EXAMPLES = pathlib.Path(__file__).parents[2] / "examples"
 NOT_SOLUTION = ("mesh", "output")
+SLIDING = ["loading.end=1.2", "loading.increments=12"]
 CONTACT = ("detection", "contact_assembly")
 
 
@@ -73,7 +75,7 @@ class Bench:
     def say(self, entry):
         self.rows.append(entry)
         overhead = f"{entry['overhead']:.2f}" if entry.get("overhead") else "-"
-        print(f"{entry['case']:<22}{entry['n_dofs']:>9} mu {entry['friction']:<4} {entry['solver']:<16}"
+        print(f"{entry.get('element', entry['case']):<22}{entry['n_dofs']:>9} mu {entry['friction']:<4} {entry['solver']:<16}"
               f" newton {entry['newton_iterations']:>4} linear {entry['linear_iterations']:>5}"
               f" {entry['contact_s']:8.2f} s  overhead {overhead:>6}  contact {100 * entry['contact_share']:4.1f} %"
               f"  {entry['peak_rss_mb']:7.0f} MB{'' if entry['converged'] else '  NOT CONVERGED'}", flush=True)
@@ -125,6 +127,33 @@ class Bench:
                        and r["n_dofs"] >= entry["n_dofs"] / 1.1)
             self.say(entry | {"contact_s": later, "tied_s": tied, "overhead": later / tied})
 
+    def mortar(self, cells, solvers, repeats=3):
+        """Both contact elements in turn on the same mesh."""
+        folder = self.work / f"mortar-{cells}"
+        folder.mkdir(exist_ok=True)
+        curved_blocks.curved_blocks(cells).write(folder / "blocks.msh")
+        for friction in (0, 0.3):
+            for solver in solvers:
+                records = {"node-to-face": [], "mortar": []}
+                for _ in range(repeats):
+                    for element, found in records.items():
+                        deck = curved_blocks.write_deck(folder / "deck.yaml", friction=friction, linear=solver, discretization=element)
+                        found.append(run(self.amontons, deck, folder / element))
+                self.compare_elements(records, friction=friction, solver=solver, dimension=3, strain="small")
+
+    def sliding_mortar(self, small, large, elements=("node-to-face", "mortar")):
+        records = {element: [run(self.amontons, EXAMPLES / "blocks-3d/blocks-3d.yaml", self.work / f"sliding-{small}-{element}",
+                                 [f"mesh.parameters.n_small={small}", f"mesh.parameters.n_large={large}", *SLIDING,
+                                  "solver.linear=direct", f"contact.0.discretization={element}"])] for element in elements}
+        self.compare_elements(records, friction=0.3, solver="direct", dimension=3, strain="finite")
+
+    def compare_elements(self, records, **known):
+        seconds = {element: statistics.median(map(solution_time, found)) for element, found in records.items()}
+        for element, found in records.items():
+            self.say(row("mortar", found[0], element=element, **known)
+                     | {"contact_s": seconds[element],
+                        "over_nodes": seconds[element] / seconds["node-to-face"] if "node-to-face" in seconds else None})
+
     def example(self, case, deck, sizes, solvers, dimension, strain, friction, settings=()):
         for size in sizes:
             for solver in solvers:
@@ -156,7 +185,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("amontons")
     parser.add_argument("--quick", action="store_true", help="small sizes, a few minutes")
-    parser.add_argument("--only", default="", help="curved-blocks, large, punch or sliding")
+    parser.add_argument("--only", default="", help="curved-blocks, large, punch, sliding or mortar")
     parser.add_argument("--json", type=pathlib.Path, required=True)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as work:
@@ -181,7 +210,13 @@ def main():
                 sizes = [(6, 5)] if options.quick else [(8, 6), (14, 11)]
                 bench.example("sliding", "blocks-3d/blocks-3d.yaml",
                               [(f"mesh.parameters.n_small={a}", f"mesh.parameters.n_large={b}") for a, b in sizes],
-                              ["direct", "amg"], 3, "finite", 0.3, ["loading.end=1.2", "loading.increments=12"])
+                              ["direct", "amg"], 3, "finite", 0.3, SLIDING)
+            if wanted("mortar"):
+                for cells in (8,) if options.quick else (8, 13):
+                    bench.mortar(cells, ["direct", "amg", "feti"])
+                bench.sliding_mortar(*((6, 5) if options.quick else (8, 6)))
+                if not options.quick:  # nodes to faces: a quarter of an hour, in 'sliding'
+                    bench.sliding_mortar(14, 11, ["mortar"])
         finally:
             options.json.write_text(json.dumps(bench.rows, indent=1))
             print(f"{time.time() - began:.0f} s, {len(bench.rows)} rows in {options.json}")
