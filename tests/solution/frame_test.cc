@@ -147,5 +147,62 @@ INSTANTIATE_TEST_SUITE_P(All, FrameIndifference,
                          testing::Combine(testing::Values(2, 3),
                                           testing::Values(Base::deformable, Base::coupled, Base::rigid),
                                           testing::Values(0.0, 0.3)));
+/// A block hollow below that forces press and push, and only friction holds; rigid, or not.
+Problem loaded_block(const Frame &frame, bool rigid)
+{
+  const int dim = frame.dim;
+  Blocks blocks(dim);
+  add_base(blocks, Base::deformable, dim);
+  const auto hollow = [=](const Point &x)
+  {
+    Point out = x;
+    out[dim - 1] += (1 - x[dim - 1]) * (0.05 - (x[0] * x[0] + (dim == 3 ? x[1] * x[1] : 0)) / 40);
+    return out;
+  };
+  if (dim == 2)
+    blocks.add("slider", {-0.56, 0, 0}, {1.21, 0.7, 0}, {9, 4, 0}, hollow);
+  else
+    blocks.add("slider", {-0.56, -0.41, 0}, {1.21, 0.7, 0.7}, {4, 2, 2}, hollow);
+  Problem problem(blocks, dim == 2 ? Kinematics::plane_strain : Kinematics::three_dimensional, Strain::finite);
+  problem.elastic("base");
+  problem.contact("slider_bottom", "base_top", 0.3);
+  problem.on("base_bottom").displacement = frame.displacement(components(frame, "0", "0", "0"));
+  const std::map<int, Expression> load =
+      frame.seen(components(frame, "0.007*max(t-0.4,0)", "0.003*max(t-0.4,0)", "-0.08*min(t,0.4)"));
+  if (rigid)
+  {
+    problem.rigid("slider");
+    BoundaryOptions &slider = problem.on("slider");
+    slider.force = load;
+    for (int axis = dim == 2 ? 2 : 0; axis < 3; ++axis)
+      slider.moment[axis] = expression(0);
+  }
+  else
+  {
+    problem.elastic("slider", 2, 0.2);
+    problem.on("slider_top").traction = load;
+  }
+  problem.options.loading.increments = 10;
+  return problem;
+}
+
+class FrameOfLoads : public testing::TestWithParam<std::tuple<int, bool>>
+{
+};
+
+TEST_P(FrameOfLoads, SameIterationsAndTheSameForcesWhereOnlyContactHolds)
+{
+  const auto [dim, rigid] = GetParam();
+  const Frame still{false, dim}, moving{true, dim};
+  const Record at_rest = loaded_block(still, rigid).converge(), moved = loaded_block(moving, rigid).converge();
+  ASSERT_EQ(moved.states.size(), at_rest.states.size());
+  EXPECT_EQ(moved.iterations(), at_rest.iterations());
+  const ContactResult &a = moved.contact(), &b = at_rest.contact();
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_LT(relative_difference(moving.back(a.force), b.force), 1e-9);
+  EXPECT_GT(b.n_stick + b.n_slip, dim == 2 ? 1 : 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FrameOfLoads, testing::Combine(testing::Values(2, 3), testing::Bool()));
 } // namespace
 } // namespace amontons::test

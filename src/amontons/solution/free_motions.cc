@@ -48,7 +48,7 @@ FreeMotions::FreeMotions(const Model &model)
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(modes_.size()), static_cast<Eigen::Index>(modes_.size()));
   if (modes_.empty())
     return;
-  add_supports(support_gram_);
+  add_supports({}, support_gram_);
   sum_up(model_.nodes(), support_gram_);
   any_ = null_space(support_gram_).cols() > 0;
 }
@@ -92,7 +92,7 @@ void FreeMotions::follow_halo()
 Eigen::Vector3d FreeMotions::place(Displacement displacement, Index node) const
 {
   Eigen::Vector3d x = model_.reference(node);
-  if (!model_.small_strain())
+  if (!model_.small_strain() && !displacement.empty())
     for (int c = 0; c < model_.dim(); ++c)
       x[c] += displacement[static_cast<std::size_t>(node) * model_.dim() + c];
   return x;
@@ -104,9 +104,7 @@ Eigen::Vector3d FreeMotions::velocity(const Mode &mode, const Carrier &carrier, 
     return Eigen::Vector3d::Zero();
   if (!mode.rotation)
     return Eigen::Vector3d::Unit(mode.axis);
-  const Eigen::Vector3d pivot =
-      carrier.rigid >= 0 ? model_.rigid().bodies()[carrier.rigid].point : center_[mode.component];
-  return Eigen::Vector3d::Unit(mode.axis).cross(at - pivot) / size_[mode.component];
+  return Eigen::Vector3d::Unit(mode.axis).cross(at - center_[mode.component]) / size_[mode.component];
 }
 
 Eigen::VectorXd FreeMotions::over_modes(Displacement displacement, int contact, Index node,
@@ -128,14 +126,15 @@ Eigen::VectorXd FreeMotions::over_modes(Displacement displacement, int contact, 
   return out;
 }
 
-void FreeMotions::add_supports(Eigen::MatrixXd &gram) const
+void FreeMotions::add_supports(Displacement displacement, Eigen::MatrixXd &gram) const
 {
   const int dim = model_.dim();
   const auto hold = [&](Index node, int component)
   {
+    const Eigen::Vector3d at = place(displacement, node);
     Eigen::VectorXd row(gram.rows());
     for (Eigen::Index m = 0; m < row.size(); ++m)
-      row[m] = velocity(modes_[m], carrier(node), model_.reference(node))[component];
+      row[m] = velocity(modes_[m], carrier(node), at)[component];
     gram += row * row.transpose();
   };
   for (const HeldComponent &held : model_.supports().held())
@@ -275,6 +274,8 @@ FreeMotions::Decision FreeMotions::decide(Displacement displacement, std::span<c
                                           double time, double force_scale)
 {
   follow_halo();
+  if (!model_.small_strain())
+    center_ = centres(displacement);
   Decision decision;
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(support_gram_.rows(), support_gram_.cols());
   for (const HoldingNode &node : holding)
@@ -282,8 +283,16 @@ FreeMotions::Decision FreeMotions::decide(Displacement displacement, std::span<c
     const Eigen::VectorXd row = over_modes(displacement, node.contact, node.node, node.row);
     gram += row * row.transpose();
   }
-  sum_up(model_.nodes(), gram);
-  gram += support_gram_;
+  if (model_.small_strain())
+  {
+    sum_up(model_.nodes(), gram);
+    gram += support_gram_;
+  }
+  else
+  {
+    add_supports(displacement, gram);
+    sum_up(model_.nodes(), gram);
+  }
   const Eigen::VectorXd load = loads(displacement, residual, time);
   while (true)
   {

@@ -81,14 +81,20 @@ private:
   /// What carries the node of a contact's target with the lowest number.
   [[nodiscard]] Carrier carrier_of_target(const ContactInterface &contact) const;
   void follow_halo();
-  using Displacement = std::span<const double>; ///< nodal
+  using Displacement = std::span<const double>; ///< nodal; empty: the reference
   /// Velocity of a node in a mode, per unit of the mode (rotations scaled to length by the part's size).
   [[nodiscard]] Eigen::Vector3d velocity(const Mode &mode, const Carrier &carrier, const Eigen::Vector3d &place) const;
   [[nodiscard]] Eigen::Vector3d place(Displacement displacement, Index node) const;
   /// Row of a contact element over the modes.
   [[nodiscard]] Eigen::VectorXd over_modes(Displacement displacement, int contact, Index node,
                                            const ContactVector &row) const;
-  void add_supports(Eigen::MatrixXd &gram) const;
+  /// Calls add(part, node) for own nodes that move with a part as its own: of a rigid body those of that body.
+  template<class Add>
+  void over_own_nodes(Add &&add) const;
+  /// Mean places of the parts' nodes: for a meshed rigid body where its point is.
+  [[nodiscard]] std::vector<Eigen::Vector3d> centres(Displacement displacement) const;
+  void find_sizes();
+  void add_supports(Displacement displacement, Eigen::MatrixXd &gram) const;
   [[nodiscard]] std::vector<double> over_unknowns(Displacement displacement, const Eigen::VectorXd &motion) const;
   /// Load along each mode, the rigid bodies' own forces included.
   [[nodiscard]] Eigen::VectorXd loads(Displacement displacement, std::span<const double> residual, double time) const;
@@ -101,13 +107,13 @@ private:
   [[nodiscard]] std::string describe(const Eigen::VectorXd &motion) const;
 
   const Model &model_;
-  std::vector<int> part_of_node_; ///< connected part, -1: cannot move (held rigid bodies, unused nodes)
-  int halo_version_;              ///< to which it belongs
-  std::vector<int> body_of_part_; ///< position in the deck's bodies
-  std::vector<Eigen::Vector3d> center_;
+  std::vector<int> part_of_node_;       ///< connected part, -1: cannot move (held rigid bodies, unused nodes)
+  int halo_version_;                    ///< to which it belongs
+  std::vector<int> body_of_part_;       ///< position in the deck's bodies
+  std::vector<Eigen::Vector3d> center_; ///< in finite strain where they are
   std::vector<double> size_;
   std::vector<Mode> modes_;
-  Eigen::MatrixXd support_gram_;
+  Eigen::MatrixXd support_gram_; ///< of the reference
   bool any_ = false;
 };
 } // namespace amontons

@@ -90,33 +90,53 @@ void FreeMotions::find_parts()
   gather_parts(parts);
   std::sort(parts.begin(), parts.end(), std::greater<>());
   part_of_node_.assign(n, -1);
-  const auto n_parts = parts.size();
   constexpr double none = -std::numeric_limits<double>::infinity();
-  std::vector<double> extremes(6 * n_parts, none); // of x, y, z, then of -x, -y, -z
   for (std::size_t node = 0; node < n; ++node)
-  {
-    if (label[node] < 0)
-      continue;
-    const auto part =
-        std::lower_bound(parts.begin(), parts.end(), std::pair{label[node], -none}, std::greater<>()) - parts.begin();
-    part_of_node_[node] = static_cast<int>(part);
-    const Eigen::Vector3d x = model_.reference(static_cast<Index>(node));
-    for (int c = 0; c < 3; ++c)
-    {
-      double &high = extremes[static_cast<std::size_t>(6 * part + c)],
-             &low = extremes[static_cast<std::size_t>(6 * part + 3 + c)];
-      high = std::max(high, x[c]);
-      low = std::max(low, -x[c]);
-    }
-  }
-  model_.nodes().maximum_over_processes(extremes);
-  for (std::size_t p = 0; p < n_parts; ++p)
-  {
-    body_of_part_.push_back(static_cast<int>(parts[p].second));
-    const Eigen::Map<const Eigen::Vector3d> high(extremes.data() + 6 * p), minus_low(extremes.data() + 6 * p + 3);
-    center_.emplace_back(0.5 * (high - minus_low));
-    size_.push_back(std::max((high + minus_low).norm(), 1e-300));
-  }
+    if (label[node] >= 0)
+      part_of_node_[node] = static_cast<int>(
+          std::lower_bound(parts.begin(), parts.end(), std::pair{label[node], -none}, std::greater<>()) -
+          parts.begin());
+  for (const auto &[name, body_of_part] : parts)
+    body_of_part_.push_back(static_cast<int>(body_of_part));
+  center_ = centres({});
+  find_sizes();
+}
+
+template<class Add>
+void FreeMotions::over_own_nodes(Add &&add) const
+{
+  for (Index node = 0; node < model_.n_state_nodes(); ++node)
+    if (const int part = part_of_node_[node];
+        part >= 0 && model_.nodes().is_own(node) &&
+        model_.rigid_of_node()[node] == model_.rigid().of_option(body_of_part_[part]))
+      add(part, node);
+}
+
+std::vector<Eigen::Vector3d> FreeMotions::centres(Displacement displacement) const
+{
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(4, static_cast<Eigen::Index>(body_of_part_.size()));
+  over_own_nodes(
+      [&](int part, Index node)
+      {
+        sums.col(part).head<3>() += place(displacement, node);
+        sums(3, part) += 1;
+      });
+  model_.nodes().sum_over_processes({sums.data(), static_cast<std::size_t>(sums.size())});
+  std::vector<Eigen::Vector3d> out;
+  for (Eigen::Index part = 0; part < sums.cols(); ++part)
+    out.emplace_back(sums.col(part).head<3>() / std::max(sums(3, part), 1.0));
+  return out;
+}
+
+/// Of parts whose nodes fill a box evenly, its diagonal.
+void FreeMotions::find_sizes()
+{
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(body_of_part_.size()));
+  over_own_nodes([&](int part, Index node)
+                 { sums.col(part) += Eigen::Vector2d((model_.reference(node) - center_[part]).squaredNorm(), 1); });
+  model_.nodes().sum_over_processes({sums.data(), static_cast<std::size_t>(sums.size())});
+  for (Eigen::Index part = 0; part < sums.cols(); ++part)
+    size_.push_back(std::max(std::sqrt(12 * sums(0, part) / std::max(sums(1, part), 1.0)), 1e-300));
 }
 
 /// Those of all processes.

@@ -17,7 +17,8 @@ namespace
 constexpr double same_direction = 0.98;
 /// How much the ratios of prescribed displacements and of forces may differ, over the larger.
 constexpr double same_ratio = 0.05;
-/// Changes of loads below this part of their size are nothing, where the motion of a frame was taken out of them.
+/// Changes of loads, and motion still to come, below this part of their size are nothing, where the motion of a frame
+/// was taken out of them.
 constexpr double round_off = 1e-12;
 
 struct Change
@@ -183,7 +184,20 @@ std::optional<State> Predictor::guess(const State &now, double from, double to)
 State Predictor::carried(const State &now, double to) const
 {
   const RigidMotion motion = given_.of_observer(now, model_.prescribe(now, to, 1));
-  return motion.is_nil() ? now : given_.moved(now, motion);
+  if (motion.is_nil())
+    return now;
+  State out = given_.moved(now, motion);
+  // What supports leave of round-off must not count as motion still to come.
+  State end = model_.prescribe(out, to, 1);
+  double size = 0, pending = 0;
+  for (std::size_t i = 0; i < end.displacement.size(); ++i)
+  {
+    size = std::max({size, std::abs(model_.points()[i]), std::abs(end.displacement[i])});
+    pending = std::max(pending, std::abs(end.displacement[i] - out.displacement[i]));
+  }
+  std::array<double, 2> largest{size, pending};
+  model_.nodes().maximum_over_processes(largest);
+  return largest[1] <= round_off * largest[0] ? end : out;
 }
 
 State Predictor::approach(const State &now, double to) const
