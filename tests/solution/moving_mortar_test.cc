@@ -202,6 +202,35 @@ TEST(MovingMortar, TiedBlocksTurn)
   }
 }
 
+/// Contact alone holds the block, in finite strain: it travels to the floor, on faces that are not its own, and bears
+/// what presses it.
+TEST(MovingMortar, BodyThatTravelsToWhereItTouches)
+{
+  for (const bool swapped : {false, true})
+  {
+    Blocks blocks(2);
+    blocks.add("block", {0, 0.01, 0}, {1, 1, 0}, {5, 4, 0});
+    blocks.add_line("floor", {{2, 0, 0}, {-1, 0, 0}}, 7);
+    Problem problem(blocks, Kinematics::plane_strain, Strain::finite);
+    problem.elastic("block");
+    problem.rigid("floor");
+    problem.contact(swapped ? "floor" : "block_bottom", swapped ? "block_bottom" : "floor").discretization =
+        Discretization::mortar;
+    problem.on("block_top").traction[1] = expression(-0.02);
+    problem.options.solver.tolerance = 1e-11;
+    const Record run = problem.converge();
+    EXPECT_NEAR(std::abs(run.contact().normal_force[1]), 0.02, exact * 0.02);
+    EXPECT_NEAR(run.contact().tangential_force[0], 0, 1e-12);
+    if (swapped)
+      continue;
+    for (std::size_t i = 0; i < run.impactor_nodes[0].size(); ++i)
+    {
+      EXPECT_NEAR(run.contact().pressure[i], 0.02, exact * 0.02); // over the reference
+      EXPECT_NEAR(run.contact().gap[i], 0, 1e-12);
+    }
+  }
+}
+
 TEST(MovingMortar, WantsTheCoupledForm)
 {
   Problem problem = pressed_blocks(2, {2, 3});
