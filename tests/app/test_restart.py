@@ -51,11 +51,17 @@ class Restart(CommandTest):
         self.write_deck((LOADING, CHECKPOINTS % (4, 1)), ('"0.005*t"', '"0.02*max(t-0.5,0)"'))
         self.stop_short(4, 0.5)
 
-    def test_friction_in_finite_strain(self):
+    def slide_in_finite_strain(self, *more):
         self.write_deck((LOADING, CHECKPOINTS % (8, 2) + "strain: finite\n"), ('"0.005*t"', '"0.3*max(t-0.25,0)"'),
                         (ELASTIC, ELASTIC.replace("linear-elastic", "neo-hookean")),
-                        ("region: upper, material: {law: linear-elastic", "region: upper, material: {law: neo-hookean"))
+                        ("region: upper, material: {law: linear-elastic", "region: upper, material: {law: neo-hookean"), *more)
         self.stop_short(8, 0.5)
+
+    def test_friction_in_finite_strain(self):
+        self.slide_in_finite_strain()
+
+    def test_surface_to_surface_in_finite_strain(self):
+        self.slide_in_finite_strain(("target: lower_top,", "target: lower_top, discretization: mortar,"))
 
     def test_plastic_bodies_unloaded(self):
         self.write_deck((LOADING, CHECKPOINTS % (4, 1)), ('"-0.01*t"', '"-0.04*min(t,1-t)"'),

@@ -177,6 +177,7 @@ void ContactAssembly::add(const Work &work, std::span<const double> pending, Con
   const ContactElement &e = work.element;
   const ContactInterface &contact = model_.contacts()[work.contact];
   const ConstraintPattern &pattern = form_.constraints()[work.block];
+  AMONTONS_ASSERT(e.force.size() == pattern.n_nodal());
   Eigen::VectorXd motion = Eigen::VectorXd::Zero(pattern.n_nodal());
   if (!pending.empty())
     for (int k = 0; k < pattern.n_nodal(); ++k)

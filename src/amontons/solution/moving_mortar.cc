@@ -139,20 +139,27 @@ void MovingMortar::move_to(std::span<const double> displacement)
   target_x_ = std::move(target_x);
 }
 
+MovingMortar::Nodes MovingMortar::with_needed(Nodes nodes, Index i) const
+{
+  const Index j = own_[i];
+  if (nodes.impactors.empty())
+    nodes.impactors = {j, neighbour(*impactor_, j)};
+  if (coupling_.sees_target(j))
+  {
+    add_missing(nodes.impactors, coupling_.gradients.impactors_of(j));
+    add_missing(nodes.targets, coupling_.targets_of(j));
+  }
+  for (const auto &[node, weight] : origin_[i])
+    add_missing(nodes.targets, {&node, 1});
+  return nodes;
+}
+
 bool MovingMortar::take_nodes(bool forget)
 {
   bool changed = false;
   for (std::size_t i = 0; i < own_.size(); ++i)
   {
-    const Index j = own_[i];
-    Nodes taken = forget || nodes_[i].impactors.empty() ? Nodes{{j, neighbour(*impactor_, j)}, {}} : nodes_[i];
-    if (coupling_.sees_target(j))
-    {
-      add_missing(taken.impactors, coupling_.gradients.impactors_of(j));
-      add_missing(taken.targets, coupling_.targets_of(j));
-    }
-    for (const auto &[node, weight] : origin_[i])
-      add_missing(taken.targets, {&node, 1});
+    Nodes taken = with_needed(forget ? Nodes{} : nodes_[i], static_cast<Index>(i));
     changed |= taken != nodes_[i];
     nodes_[i] = std::move(taken);
   }
@@ -210,7 +217,7 @@ ContactLinearisation MovingMortar::linearise(Index i) const
 {
   const int dim = impactor_->dim;
   const Index j = own_[i];
-  const Nodes &nodes = nodes_[i];
+  const Nodes nodes = with_needed(nodes_[i], i);
   const auto impactors = coupling_.gradients.impactors_of(j);
   const auto targets = coupling_.targets_of(j);
   const auto weights = coupling_.weights_of(j);
@@ -231,7 +238,6 @@ ContactLinearisation MovingMortar::linearise(Index i) const
   for (const Index node : targets)
   {
     row.push_back(place_in(nodes.targets, node));
-    AMONTONS_ASSERT(row.back() < n_targets);
     column.push_back(dim * (n_impactors + row.back()));
   }
   Eigen::MatrixXd normal_gradient = Eigen::MatrixXd::Zero(dim, dim * n_impactors);

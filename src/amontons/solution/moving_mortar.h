@@ -43,7 +43,7 @@ public:
   [[nodiscard]] double gap(Index i) const;
   /// Parts of the own nodes' areas, as they are now, that see the target.
   [[nodiscard]] std::vector<double> covered_shares() const;
-  /// Of node i, over nodes(), which take_nodes() must have brought up to date.
+  /// Of node i, over nodes() where take_nodes() has brought them up to date, else over more.
   [[nodiscard]] ContactLinearisation linearise(Index i) const;
 
   /// The present configuration is the increment's beginning, where all slip starts.
@@ -64,6 +64,8 @@ private:
   [[nodiscard]] std::vector<double> places(const Surface &surface, const std::vector<Index> &positions,
                                            std::span<const double> displacement) const;
   [[nodiscard]] Mean mean(Index i) const;
+  /// With what the present coupling of node i and the origin of its slip need, too.
+  [[nodiscard]] Nodes with_needed(Nodes nodes, Index i) const;
 
   std::shared_ptr<const Surface> impactor_, target_;
   bool axisymmetric_;
