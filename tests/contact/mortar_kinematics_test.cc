@@ -18,7 +18,8 @@ using Eigen::VectorXd;
 /// Normal and weights as made-up functions of all positions x (impactors, then targets).
 struct Mean
 {
-  int dim, n_impactors, n_targets, along;
+  int dim, n_impactors, n_targets;
+  std::array<int, 2> ends;
   MatrixXd normal_form; ///< [dim x dim * n_impactors]
   MatrixXd weight_form; ///< [n_targets x n dofs]
   VectorXd origin;      ///< [n_targets]
@@ -27,7 +28,7 @@ struct Mean
     : dim(dimension)
     , n_impactors(4)
     , n_targets(5)
-    , along(static_cast<int>(seed) % 3 + 1)
+    , ends{static_cast<int>(seed) % 4, static_cast<int>(seed + 1) % 4}
   {
     Random random(seed);
     const auto matrix = [&](int n, int m)
@@ -60,7 +61,7 @@ struct Mean
     Vector3d n3 = Vector3d::Zero();
     n3.head(dim) = n;
     const VectorXd own = x.head(dim * n_impactors), others = x.tail(dim * n_targets);
-    return linearise_mortar(dim, n3, dn, span(own), span(others), span(w), dw, span(origin), along);
+    return linearise_mortar(dim, n3, dn, span(own), span(others), span(w), dw, span(origin), ends);
   }
 };
 
@@ -96,7 +97,7 @@ TEST(MortarKinematics, MatchesItsDefinition)
       }
       EXPECT_NEAR(lin.gap, n.dot(opposite), 1e-14);
       EXPECT_LT((lin.normal.head(dim) - n).norm(), 1e-15);
-      const VectorXd edge = x.segment(dim * mean.along, dim) - x.head(dim);
+      const VectorXd edge = x.segment(dim * mean.ends[1], dim) - x.segment(dim * mean.ends[0], dim);
       const VectorXd first = dim == 2 ? VectorXd(Eigen::Vector2d(-n[1], n[0])) : (edge - n.dot(edge) * n).normalized();
       EXPECT_LT((lin.tangent[0].head(dim) - first).norm(), 1e-14);
       if (dim == 3)
@@ -148,7 +149,7 @@ TEST(MortarKinematics, AnEdgeAlongTheNormalIsANumericalFailure)
 {
   const std::vector<double> impactors{0, 0, 0, 0, 0, 1}, targets{0, 0, -1}, weight{1};
   EXPECT_THROW(linearise_mortar(3, Vector3d::UnitZ(), MatrixXd::Zero(3, 6), impactors, targets, weight,
-                                MatrixXd::Zero(1, 9), weight, 1),
+                                MatrixXd::Zero(1, 9), weight, {0, 1}),
                NumericalFailure);
 }
 } // namespace

@@ -65,7 +65,7 @@ Element linearise(const MortarScene &scene, const VectorXd &x, Index j, const Ma
   by.topLeftCorner(n_now, n_own + dim * n_now) = coupling.gradients.weight[j];
   const VectorXd own = places.head(n_own), others = places.tail(places.size() - n_own);
   out.lin = linearise_mortar(dim, coupling.normal[j], coupling.gradients.normal[j], span(own), span(others), weights,
-                             by, origin_weights, 1);
+                             by, origin_weights, {0, 1});
   return out;
 }
 

@@ -231,6 +231,88 @@ TEST(MovingMortar, BodyThatTravelsToWhereItTouches)
   }
 }
 
+/// Two bars in a row along y without Poisson's effect, their ends `gap` apart, moved towards each other by `way`; faces
+/// of a twentieth.
+Problem bars(double gap, double way)
+{
+  Blocks blocks(2);
+  blocks.add("lower", {0, 0, 0}, {1, 1, 0}, {18, 2, 0});
+  blocks.add("upper", {0, 1 + gap, 0}, {1, 1, 0}, {20, 2, 0});
+  Problem problem(blocks, Kinematics::plane_strain, Strain::finite);
+  problem.elastic("lower", 2, 0);
+  problem.elastic("upper", 1, 0);
+  problem.contact("upper_bottom", "lower_top").discretization = Discretization::mortar;
+  problem.on("lower_bottom").fix = {0, 1};
+  problem.on("upper_top").displacement = {{0, expression(0)}, {1, expression(std::to_string(-way) + "*t")}};
+  problem.options.loading.increments = 4;
+  problem.options.solver.tolerance = 1e-11;
+  return problem;
+}
+
+/// What is tied across many faces' lengths stays tied while little moves, and as if there were no gap.
+TEST(MovingMortar, TiesAcrossAGap)
+{
+  std::array<double, 2> force{};
+  for (const bool apart : {false, true})
+  {
+    Problem problem = bars(apart ? 0.4 : 0, -0.1);
+    problem.options.contact[0].tied = true;
+    const Record run = problem.converge();
+    EXPECT_EQ(run.contact().n_active, run.contact().n_nodes);
+    force[apart ? 1 : 0] = run.contact().normal_force[1];
+  }
+  EXPECT_LT(force[0], -0.05);
+  EXPECT_NEAR(force[1], force[0], 1e-5 * std::abs(force[0])); // the ends narrow, each by its own strain
+}
+
+/// An overlap of some faces' lengths that counts as touching is told, and stays where it is.
+TEST(MovingMortar, AdjustsADeepOverlap)
+{
+  std::array<double, 2> force{};
+  for (const bool overlap : {false, true})
+  {
+    Problem problem = bars(overlap ? -0.18 : 0, 0.2);
+    problem.options.contact[0].initial_overlap = InitialOverlap::adjust;
+    const Record run = problem.converge();
+    EXPECT_EQ(run.contact().n_active, run.contact().n_nodes);
+    force[overlap ? 1 : 0] = run.contact().normal_force[1];
+    if (overlap)
+      EXPECT_THAT(run.warnings, testing::ElementsAre(testing::HasSubstr("taken as touching")));
+    else
+      EXPECT_THAT(run.warnings, testing::IsEmpty());
+  }
+  EXPECT_GT(force[0], 0.05);
+  EXPECT_NEAR(force[1], force[0], 1e-5 * force[0]); // the ends widen, each by its own strain
+}
+
+/// A block whose sides belong to the impactor, too, pressed on a rigid plane and dragged: as its lower side alone.
+TEST(MovingMortar, SidesOfTheImpactorMayBelongToIt)
+{
+  std::array<Record, 2> runs;
+  for (const bool sides : {false, true})
+  {
+    Blocks blocks(3);
+    blocks.add("block", {0, 0, 0}, {1, 1, 0.8}, {3, 3, 2});
+    blocks.add_sheet("floor", {-2, -2, 0}, {6, 0, 0}, {0, 5, 0}, {19, 14});
+    blocks.add_union("hull", {"block_left", "block_right", "block_front", "block_back", "block_bottom"});
+    Problem problem(blocks, Kinematics::three_dimensional, Strain::finite);
+    problem.elastic("block", 1, 0.3);
+    problem.rigid("floor");
+    problem.on("floor").displacement = {{0, expression(0)}, {1, expression(0)}, {2, expression(0)}};
+    problem.on("block_top").displacement = {
+        {0, expression("0.3*max(t-1,0)")}, {1, expression("0.2*max(t-1,0)")}, {2, expression("-0.05*min(t,1)")}};
+    problem.contact(sides ? "hull" : "block_bottom", "floor", 0.2).discretization = Discretization::mortar;
+    problem.options.loading.end = 2;
+    problem.options.loading.increments = 4;
+    problem.options.solver.tolerance = 1e-11;
+    runs[sides ? 1 : 0] = problem.converge();
+  }
+  const ContactResult &lower = runs[0].contact(), &hull = runs[1].contact();
+  EXPECT_EQ(lower.n_active, 16);
+  EXPECT_EQ(hull.n_active, lower.n_active);
+  EXPECT_LT((total_force(hull) - total_force(lower)).norm(), exact * total_force(lower).norm());
+}
+
 TEST(MovingMortar, WantsTheCoupledForm)
 {
   Problem problem = pressed_blocks(2, {2, 3});

@@ -88,5 +88,31 @@ TEST(Tied, MatchingMeshesAreOneBody)
     EXPECT_LT((tied - whole).norm(), 1e-10 * whole.norm());
   }
 }
+
+/// Nodes beyond the target's end are not tied, and are not when it has come to lie below them.
+TEST(Tied, WhatFindsNoTargetAtTheStartStaysFree)
+{
+  for (const Discretization discretization : {Discretization::node_to_face, Discretization::mortar})
+  {
+    Blocks blocks(2);
+    blocks.add("lower", {0, 0, 0}, {1, 1, 0}, {5, 5, 0});
+    blocks.add("upper", {0, 1, 0}, {2, 0.5, 0}, {7, 3, 0});
+    Problem problem(blocks, Kinematics::plane_strain, Strain::finite);
+    problem.elastic("lower", 0.1, 0.3);
+    problem.elastic("upper", 1, 0.3);
+    ContactOptions &contact = problem.contact("upper_bottom", "lower_top");
+    contact.discretization = discretization;
+    contact.tied = true;
+    problem.on("lower_bottom").displacement = {{0, expression("0.6*t*x")}, {1, expression(0)}};
+    problem.on("lower_right").displacement[0] = expression("0.6*t");
+    problem.on("upper_top").fix = {0, 1};
+    problem.options.loading.increments = 6;
+    const Record run = problem.converge();
+    EXPECT_GT(run.contact().n_active, 3);
+    for (const SolutionState &state : run.states)
+      if (state.increment > 0)
+        EXPECT_EQ(state.contacts[0].n_active, run.states[1].contacts[0].n_active);
+  }
+}
 } // namespace
 } // namespace amontons::test

@@ -2,6 +2,7 @@
 #include "amontons/contact/linearisation.h"
 #include "amontons/surface/shape.h"
 
+#include <array>
 #include <span>
 
 namespace amontons
@@ -53,12 +54,12 @@ ContactLinearisation linearise_mean(int dim, const Eigen::Vector3d &normal, std:
 /// @param targets positions, [n_targets * dim]
 /// @param weights w, [n_targets], their sum 1 @param weight_gradient [n_targets x dim * (n_impactors + n_targets)]
 /// @param origin_weights w0, where the slip started, on the same targets, [n_targets], their sum 1
-/// @param along in 3D e_1 is the part normal to n of impactors[along] - impactors[0]; in the plane (-n_y, n_x)
+/// @param ends in 3D e_1 is the part normal to n of impactors[ends[1]] - impactors[ends[0]]; in the plane (-n_y, n_x)
 /// @throws NumericalFailure if that part vanishes
 ContactLinearisation linearise_mortar(int dim, const Eigen::Vector3d &normal, const Eigen::MatrixXd &normal_gradient,
                                       std::span<const double> impactors, std::span<const double> targets,
                                       std::span<const double> weights, const Eigen::MatrixXd &weight_gradient,
-                                      std::span<const double> origin_weights, int along);
+                                      std::span<const double> origin_weights, const std::array<int, 2> &ends);
 
 /// Analytic rigid target that translates with its point (Shape::point).
 /// Dofs: impactor, then the shape's point. `slip_origin` is a position at tau, `shape_point_at_start` the point's then.

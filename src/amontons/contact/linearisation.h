@@ -20,7 +20,7 @@ using ContactMatrix = Eigen::MatrixXd;
 /// the impactor nodes that normal and weights depend on (linearise_mortar).
 /// Frame: n the target's outward normal, e_1 (and e_2 in 3D) orthonormal tangents with e_1 along the face's first local
 /// direction, e_2 = n x e_1. In the plane e_1 = (x_3 - x_2)/|x_3 - x_2|. With mortar e_1 is
-/// made from an axis of coordinates, as on a plane shape, in finite strain from a neighbouring impactor node.
+/// made from an axis of coordinates, as on a plane shape, in finite strain from two neighbouring impactor nodes.
 struct ContactLinearisation
 {
   int dim = 2;

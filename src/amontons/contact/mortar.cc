@@ -13,6 +13,10 @@ namespace
 {
 /// Part of a face by which overlaps may exceed it.
 constexpr double overlap_tolerance = 1e-6;
+/// Part of the best face's facing below which a face beyond a sharp edge does not count at a node.
+constexpr double least_facing = 0.5;
+/// Cosine between normals at a node from which on there is a sharp edge.
+constexpr double sharp_cosine = 0.86602540378443865;
 /// Smaller weights are none.
 constexpr double round_off = 1e-13;
 
@@ -64,8 +68,11 @@ public:
       keep_nearest_layer(size_of(face));
       out_.n_overlaps += static_cast<Index>(n_seen_);
       if (n_seen_ > 0)
-        add_face(f, couple_face(face.n_nodes, size_of(face), seen_faces(), scope_.gradients));
+        coupled_.push_back({f, couple_face(face.n_nodes, size_of(face), seen_faces(), scope_.gradients)});
     }
+    leave_out_aslant();
+    for (auto &[f, face] : coupled_)
+      add_face(f, std::move(face));
     finish();
     return std::move(out_);
   }
@@ -96,6 +103,7 @@ private:
   {
     n_seen_ = 0;
     const int dim = impactor_.surface.dim;
+    const Eigen::Vector3d normal = face_normal(face, face_centre(face));
     std::optional<ProjectionPlane> plane;
     if (dim == 3)
       plane.emplace(face);
@@ -112,6 +120,7 @@ private:
       else
         integrate_overlap(face, {normals_.at(f, 0), normals_.at(f, 1)}, other, axisymmetric_, scope_.gradients,
                           integrals);
+      seen_[n_seen_].facing = -normal.dot(face_normal(other, face_centre(other)));
       if (integrals.least_gap <= w_)
         ++n_seen_;
     }
@@ -135,15 +144,44 @@ private:
     }
   }
 
+  /// Where faces beyond sharp edges round a node see the target aslant, next to one that sees it well.
+  void leave_out_aslant()
+  {
+    struct Best
+    {
+      double facing = 0;
+      Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    };
+    std::vector<Best> best(out_.area.size());
+    const auto visit = [&](const auto &with)
+    {
+      for (auto &[f, face] : coupled_)
+        for (int &corner : face.corners)
+          with(face.facing, normals_.at(f, corner), best[impactor_.surface.face(f)[corner]], corner);
+    };
+    visit(
+        [](double facing, const Eigen::Vector3d &normal, Best &at, int &)
+        {
+          if (facing > at.facing)
+            at = {facing, normal};
+        });
+    visit(
+        [](double facing, const Eigen::Vector3d &normal, const Best &at, int &corner)
+        {
+          if (facing < least_facing * at.facing && normal.dot(at.normal) < sharp_cosine)
+            corner = -1;
+        });
+  }
+
   void add_face(Index f, FaceCoupling face)
   {
     const auto nodes = impactor_.surface.face(f);
     for (std::size_t k = 0; k < face.corners.size(); ++k)
     {
       const auto row = static_cast<Eigen::Index>(k);
-      const Index node = nodes[face.corners[k]];
-      if (!wanted(node))
+      if (face.corners[k] < 0 || !wanted(nodes[face.corners[k]]))
         continue;
+      const Index node = nodes[face.corners[k]];
       out_.area[node] += face.own[row];
       out_.normal[node] -= face.own[row] * normals_.at(f, face.corners[k]);
       for (std::size_t t = 0; t < face.targets.size(); ++t)
@@ -190,6 +228,7 @@ private:
   MortarNormals normals_;
   std::vector<SeenFace> seen_; ///< by one face, of which the first n_seen_ are in use
   std::size_t n_seen_ = 0;
+  std::vector<std::pair<Index, FaceCoupling>> coupled_; ///< faces that see something
   std::vector<Entry> entries_;
   std::optional<MortarGradientAssembly> gradients_;
   MortarCoupling out_;

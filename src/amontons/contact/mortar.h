@@ -85,6 +85,8 @@ struct MortarScope
 /// @param axisymmetric integrals over the ring, 2 pi r
 /// @param w pairs of faces that nowhere come within this distance of each other do not count, length. Where an impactor
 /// face sees more than its own size, of target layers behind one another, the nearer counts.
+/// Round a node at a sharp edge a face that faces the target less than half as well as the best does not count there:
+/// it hardly sees anything but aslant and far away, as the sides of a block see the floor.
 /// A node of which a face covers less than 1e-6 of its share carries no multiplier there: the best covered node of that
 /// face stands in for it, for values extrapolated from a sliver would be noise.
 /// The impactor's adjacency must be built. @throws NumericalFailure if an impactor face is not convex

@@ -21,7 +21,7 @@ using CornerMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ma
 /// [row target * n + i] of N_i N_target.
 struct FaceSums
 {
-  double size = 0, ring_size = 0;
+  double size = 0, ring_size = 0, facing = 0;
   CornerMatrix mass;
   RowMatrix mixed; ///< [n_targets x n]
   RowMatrix mass_gradient, mixed_gradient;
@@ -49,19 +49,20 @@ void add_gradient(const From &from, std::span<const int> places, RowMatrix &to, 
 FaceSums sum(int n, std::span<const SeenFace> seen, const std::vector<Index> &targets, bool with_gradient)
 {
   const auto n_targets = static_cast<Eigen::Index>(targets.size()), n_variables = n_own + 2 * n_targets;
-  FaceSums out{0, 0, CornerMatrix::Zero(n, n), RowMatrix::Zero(n_targets, n), {}, {}};
+  FaceSums out{0, 0, 0, CornerMatrix::Zero(n, n), RowMatrix::Zero(n_targets, n), {}, {}};
   if (with_gradient)
   {
     out.mass_gradient = RowMatrix::Zero(n * n, n_variables);
     out.mixed_gradient = RowMatrix::Zero(n_targets * n, n_variables);
   }
-  for (const auto &[nodes, integrals] : seen)
+  for (const auto &[nodes, integrals, facing] : seen)
   {
     std::array<int, max_corners> places{};
     for (std::size_t k = 0; k < nodes.size(); ++k)
       places[k] = static_cast<int>(std::lower_bound(targets.begin(), targets.end(), nodes[k]) - targets.begin());
     const std::span<const int> used(places.data(), nodes.size());
     out.size += integrals.size;
+    out.facing += facing * integrals.size;
     out.ring_size += integrals.ring_size;
     out.mass += integrals.mass.topLeftCorner(n, n);
     for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -152,6 +153,7 @@ FaceCoupling couple_face(int n_nodes, double face_size, std::span<const SeenFace
   FaceCoupling out;
   out.targets = nodes_of(seen);
   const FaceSums sums = sum(n_nodes, seen, out.targets, with_gradient);
+  out.facing = sums.facing / sums.size;
   out.whole = sums.size >= (1 - least_part) * face_size;
   const auto stands_for = representatives(sums.mass.rowwise().sum(), face_size * sums.ring_size / sums.size);
   for (int i = 0; i < n_nodes; ++i)

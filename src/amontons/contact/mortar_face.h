@@ -14,6 +14,7 @@ struct SeenFace
 {
   std::span<const Index> nodes;
   OverlapIntegrals integrals;
+  double facing = 0; ///< minus the cosine between the faces' normals
 };
 
 /// What one impactor face adds to D and M (contact/mortar.h), over the part of it that sees the target.
@@ -22,9 +23,11 @@ struct SeenFace
 /// `targets`.
 struct FaceCoupling
 {
-  std::vector<int> corners;   ///< that carry a multiplier; another stands in for one that hardly anything covers
+  std::vector<int> corners;   ///< that carry a multiplier; another stands in for one that hardly anything covers; -1:
+                              ///< left out, for other faces round the node see the target better
   std::vector<Index> targets; ///< nodes seen, ascending
   bool whole = false;         ///< whether all of the face sees the target
+  double facing = 0;          ///< mean of what is seen
   Eigen::VectorXd own;        ///< D, [n_corners]
   RowMatrix mortar;           ///< M, [n_corners x n_targets]
   RowMatrix own_gradient;     ///< [n_corners x n_variables], where asked for

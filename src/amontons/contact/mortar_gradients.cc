@@ -118,7 +118,7 @@ std::vector<MortarGradientAssembly::Round> MortarGradientAssembly::faces_round(I
     const Face &face = faces_[place_[f]];
     const auto nodes = impactor_.surface.face(f);
     for (std::size_t k = 0; k < face.coupling.corners.size(); ++k)
-      if (const int corner = face.coupling.corners[k]; nodes[corner] == j)
+      if (const int corner = face.coupling.corners[k]; corner >= 0 && nodes[corner] == j)
         out.push_back({&face, k, normals_.at(f, corner), normals_.gradient(f, corner)});
   }
   return out;

@@ -1,6 +1,8 @@
 #include "amontons/base/error.h"
 #include "amontons/contact/kinematics.h"
 
+#include <algorithm>
+
 namespace amontons
 {
 namespace
@@ -25,7 +27,8 @@ MatrixXd crossed(const MatrixXd &a, const Vector3d &b)
   return out;
 }
 
-std::array<Direction, max_tangents> tangents(int dim, const Direction &normal, const Vector3d &along_vector, int along)
+std::array<Direction, max_tangents> tangents(int dim, const Direction &normal, const Vector3d &along,
+                                             const std::array<int, 2> &ends)
 {
   const Vector3d &n = normal.value;
   Direction first, second;
@@ -37,14 +40,14 @@ std::array<Direction, max_tangents> tangents(int dim, const Direction &normal, c
     first.gradient.row(1) = normal.gradient.row(0);
     return {first, second};
   }
-  const Vector3d part = along_vector - n.dot(along_vector) * n;
+  const Vector3d part = along - n.dot(along) * n;
   const double length = part.norm();
   if (!(length > 0))
-    throw NumericalFailure("an edge of the impactor stands on its own face");
-  MatrixXd change = -n.dot(along_vector) * normal.gradient - n * (along_vector.transpose() * normal.gradient);
+    throw NumericalFailure("the impactor is folded: its normal lies in its own face");
+  MatrixXd change = -n.dot(along) * normal.gradient - n * (along.transpose() * normal.gradient);
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - n * n.transpose();
-  change.leftCols<3>() -= across;
-  change.middleCols<3>(3 * static_cast<Eigen::Index>(along)) += across;
+  change.middleCols<3>(3 * static_cast<Eigen::Index>(ends[0])) -= across;
+  change.middleCols<3>(3 * static_cast<Eigen::Index>(ends[1])) += across;
   first.value = part / length;
   first.gradient = (change - first.value * (first.value.transpose() * change)) / length;
   second.value = n.cross(first.value);
@@ -103,7 +106,7 @@ struct Mean
 ContactLinearisation linearise_mortar(int dim, const Vector3d &normal, const MatrixXd &normal_gradient,
                                       std::span<const double> impactors, std::span<const double> targets,
                                       std::span<const double> weights, const MatrixXd &weight_gradient,
-                                      std::span<const double> origin_weights, int along)
+                                      std::span<const double> origin_weights, const std::array<int, 2> &ends)
 {
   const auto n_impactors = static_cast<Eigen::Index>(impactors.size()) / dim,
              n_targets = static_cast<Eigen::Index>(weights.size());
@@ -111,7 +114,7 @@ ContactLinearisation linearise_mortar(int dim, const Vector3d &normal, const Mat
   AMONTONS_ASSERT(origin_weights.size() == weights.size() && normal_gradient.rows() == dim);
   AMONTONS_ASSERT(normal_gradient.cols() == dim * n_impactors && weight_gradient.rows() == n_targets);
   AMONTONS_ASSERT(weight_gradient.cols() == dim * (n_impactors + n_targets));
-  AMONTONS_ASSERT(dim == 2 || (along >= 1 && along < n_impactors));
+  AMONTONS_ASSERT(dim == 2 || (std::min(ends[0], ends[1]) >= 0 && std::max(ends[0], ends[1]) < n_impactors));
   const Eigen::Map<const MatrixXd> own(impactors.data(), dim, n_impactors), others(targets.data(), dim, n_targets);
   Mean mean{dim,
             n_impactors,
@@ -123,9 +126,9 @@ ContactLinearisation linearise_mortar(int dim, const Vector3d &normal, const Mat
   mean.targets.topRows(dim) = others.colwise() - own.col(0);
   Direction n{normal, MatrixXd::Zero(3, normal_gradient.cols())};
   n.gradient.topRows(dim) = normal_gradient;
-  Vector3d along_vector = Vector3d::Zero();
+  Vector3d along = Vector3d::Zero();
   if (dim == 3)
-    along_vector = own.col(along) - own.col(0);
+    along = own.col(ends[1]) - own.col(ends[0]);
 
   ContactLinearisation out;
   out.dim = dim;
@@ -136,7 +139,7 @@ ContactLinearisation linearise_mortar(int dim, const Vector3d &normal, const Mat
   out.gap_gradient = -mean.gradient_along(n, mean.weights);
   out.gap_gradient.head(dim) += normal.head(dim);
   const VectorXd slipped = mean.weights - mean.origin;
-  const auto frame = tangents(dim, n, along_vector, along);
+  const auto frame = tangents(dim, n, along, ends);
   for (int c = 0; c < dim - 1; ++c)
   {
     out.tangent[c] = frame[c].value;

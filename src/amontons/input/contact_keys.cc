@@ -76,10 +76,9 @@ Section<ContactOptions> contact_keys()
   keys.map<FrictionOptions>(
       "friction", friction_keys(), otherwise("none: the surfaces slide freely"), "what the surfaces do when they slide",
       [](ContactOptions &contact, FrictionOptions friction) { contact.friction_coefficient = friction.coefficient; });
-  keys.boolean(
-      "tied", &ContactOptions::tied, optional,
-      "true: each impactor node that finds a target face keeps its place on it, gap and all, and takes tension "
-      "too; for bodies that are joined but whose meshes do not match");
+  keys.boolean("tied", &ContactOptions::tied, optional,
+               "true: each impactor node that finds a target face at the start keeps its place on it, gap and all, and "
+               "takes tension too; for bodies that are joined but whose meshes do not match");
   keys.choice("initial-overlap", &ContactOptions::initial_overlap,
               {{"resolve", InitialOverlap::resolve}, {"adjust", InitialOverlap::adjust}}, optional,
               "nodes inside the target before anything moves; resolve: a press-fit, pushed out in the first increment; "

@@ -67,6 +67,7 @@ ContactInterface::ContactInterface(const std::vector<double> &points, Kinematics
   has_origin_.assign(n, 0);
   start_gap_.assign(n, 0);
   gap_offset_.assign(n, 0);
+  left_out_.assign(n, 0);
   total_slip_.assign(n * (dim_ - 1), 0);
   status_.assign(n, ContactStatus::open);
 }
@@ -305,16 +306,23 @@ ContactLinearisation ContactInterface::linearise(Index i, std::span<const double
   return linearise_with_origin(i, displacement, start);
 }
 
-void ContactInterface::set_initial_gap(std::span<const double> displacement)
+double ContactInterface::set_initial_gap(std::span<const double> displacement)
 {
   if (!options_.tied && options_.initial_overlap == InitialOverlap::resolve)
-    return;
+    return 0;
   move_to(displacement);
+  double deepest = 0;
   for (Index i = 0; i < n_nodes(); ++i)
-    if (paired(i))
+  {
+    if (!paired(i))
     {
-      const double initial = gap(i, displacement);
-      gap_offset_[i] = options_.tied ? initial : std::min(0.0, initial);
+      left_out_[i] = options_.tied ? 1 : 0;
+      continue;
     }
+    const double initial = gap(i, displacement);
+    deepest = std::max(deepest, -initial);
+    gap_offset_[i] = options_.tied ? initial : std::min(0.0, initial);
+  }
+  return deepest;
 }
 } // namespace amontons

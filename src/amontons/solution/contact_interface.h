@@ -84,6 +84,8 @@ public:
   [[nodiscard]] double stiffness(Index i) const { return augmentation_[i] / options_.augmentation; }
   [[nodiscard]] bool paired(Index i) const
   {
+    if (left_out_[i])
+      return false;
     if (moving_mortar_)
       return moving_mortar_->sees_target(i);
     return analytic_ || (mortar_ ? mortar_->sees_target(i) : pairing_[i].face >= 0);
@@ -101,8 +103,11 @@ public:
   [[nodiscard]] std::vector<Index> nodes(Index i) const;
 
   /// Measures gaps from those in this configuration: the overlaps where they are to be adjusted, all where the sides
-  /// are tied.
-  void set_initial_gap(std::span<const double> displacement);
+  /// are tied; tied nodes without a pair here never have one. @return the deepest overlap that is adjusted, at least 0
+  double set_initial_gap(std::span<const double> displacement);
+  /// Mortar in finite strain: what set_initial_gap() found stays in sight, however little is moved at a time.
+  /// @param deepest overlap of all processes
+  void keep_in_sight(double deepest);
 
   /// Whether pairs come of a search for faces (take_pairs), and not of couple() or an analytic shape.
   [[nodiscard]] bool is_searched() const { return !analytic_ && !is_mortar(); }
@@ -244,6 +249,7 @@ private:
   std::vector<char> has_origin_;
   std::vector<double> start_gap_;
   std::vector<double> gap_offset_;    ///< initial gap that is taken as zero
+  std::vector<char> left_out_;        ///< of tied nodes those that found no target at the start
   std::vector<ContactStatus> status_; ///< at the increment's beginning
   std::vector<double> total_slip_;    ///< [n * (dim-1)]
   std::vector<OldFrame> old_frames_;  ///< of nodes whose face the last take_pairs() changed, in 3D

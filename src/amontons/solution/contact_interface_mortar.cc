@@ -32,6 +32,12 @@ bool ContactInterface::start_mortar(std::span<const double> start, double reach)
   return moving_mortar_->take_nodes(true);
 }
 
+void ContactInterface::keep_in_sight(double deepest)
+{
+  if (moving_mortar_)
+    moving_mortar_->set_least_distance(options_.tied ? moving_mortar_->distance() : 2 * deepest);
+}
+
 bool ContactInterface::couple(std::span<const double> displacement, double reach)
 {
   if (moving_mortar_)
@@ -96,7 +102,7 @@ DetectionReport ContactInterface::mortar_report() const
     if (!paired(i))
       continue;
     ++report.n_pairs;
-    const double depth = gap(i, still);
+    const double depth = gap(i, still) + gap_offset_[i];
     if (depth > -round_off * report.distance)
       continue;
     ++report.n_penetrations;

@@ -27,12 +27,15 @@ void add_missing(std::vector<Index> &nodes, std::span<const Index> more)
       nodes.push_back(node);
 }
 
-/// The node after this one on the first of its faces: another point of the surface for a direction on it.
-Index neighbour(const Surface &surface, Index node)
+/// Node j and, in space, its neighbours on the first of its faces, from the next to the last: between these e_1 points.
+/// An edge may stand on the node's mean normal where faces of two sides meet; this diagonal does not.
+std::vector<Index> first_impactors(const Surface &surface, Index j)
 {
-  const auto face = surface.face(surface.faces_of_node(node).front());
-  const auto here = std::find(face.begin(), face.end(), node);
-  return here + 1 == face.end() ? face.front() : here[1];
+  if (surface.dim == 2)
+    return {j};
+  const auto face = surface.face(surface.faces_of_node(j).front());
+  const auto n = face.size(), here = static_cast<std::size_t>(std::find(face.begin(), face.end(), j) - face.begin());
+  return {j, face[(here + 1) % n], face[(here + n - 1) % n]};
 }
 
 double longest_diagonal(const Surface &surface)
@@ -74,7 +77,7 @@ MovingMortar::MovingMortar(std::shared_ptr<const Surface> impactor, std::shared_
   , axisymmetric_(axisymmetric)
   , is_own_(static_cast<std::size_t>(impactor_->n_nodes()), 0)
   , own_distance_(own_distance)
-  , face_length_(longest_diagonal(*impactor_))
+  , least_distance_(least_reach * longest_diagonal(*impactor_))
   , nodes_(own.size())
   , start_(own.size())
   , origin_(own.size())
@@ -107,9 +110,14 @@ void MovingMortar::place(const std::function<Index(GlobalIndex)> &position_of)
   place(*target_, target_positions_);
 }
 
+void MovingMortar::set_least_distance(double distance)
+{
+  least_distance_ = std::max(least_distance_, distance);
+}
+
 void MovingMortar::set_reach(double reach)
 {
-  const double distance = own_distance_.value_or(std::max(reach, least_reach * face_length_));
+  const double distance = own_distance_.value_or(std::max(reach, least_distance_));
   if (distance != distance_)
     impactor_x_.clear();
   distance_ = distance;
@@ -143,7 +151,7 @@ MovingMortar::Nodes MovingMortar::with_needed(Nodes nodes, Index i) const
 {
   const Index j = own_[i];
   if (nodes.impactors.empty())
-    nodes.impactors = {j, neighbour(*impactor_, j)};
+    nodes.impactors = first_impactors(*impactor_, j);
   if (coupling_.sees_target(j))
   {
     add_missing(nodes.impactors, coupling_.gradients.impactors_of(j));
@@ -258,7 +266,7 @@ ContactLinearisation MovingMortar::linearise(Index i) const
   for (const auto &[node, value] : origin_[i])
     origin[place_in(nodes.targets, node)] = value;
   return linearise_mortar(dim, coupling_.normal[j], normal_gradient, impactor_x, target_x, weight, weight_gradient,
-                          origin, 1);
+                          origin, {1, 2});
 }
 
 void MovingMortar::begin_increment()

@@ -26,6 +26,8 @@ public:
   /// Takes their positions.
   void place(const std::function<Index(GlobalIndex)> &position_of);
 
+  /// What is as near couples whatever the reach, unless the user gives a distance. [length]
+  void set_least_distance(double distance);
   /// What comes within `reach` may couple from now on. [length]
   void set_reach(double reach);
   [[nodiscard]] double distance() const { return distance_; }
@@ -57,7 +59,7 @@ private:
   /// Nodes of the whole surfaces.
   struct Nodes
   {
-    std::vector<Index> impactors; ///< the own node, the one that e_1 points to, then others as they came
+    std::vector<Index> impactors; ///< the own node, in 3D the two that e_1 is made of, then others as they came
     std::vector<Index> targets;   ///< as they came
     bool operator==(const Nodes &) const = default;
   };
@@ -73,7 +75,7 @@ private:
   std::vector<char> is_own_; ///< [n impactor nodes]
   std::vector<Index> impactor_positions_, target_positions_;
   std::optional<double> own_distance_;
-  double face_length_ = 0, distance_ = 0;
+  double least_distance_ = 0, distance_ = 0;
   std::vector<double> impactor_x_, target_x_; ///< where they were coupled; empty: nowhere
   MortarCoupling coupling_;
   std::vector<Nodes> nodes_;

@@ -110,12 +110,16 @@ void detect_first(Model &model, State &state)
   }
   (void)model.detect(state, reaches, false);
   const std::vector<double> displacement = model.with_halo(state.displacement);
+  std::vector<double> deepest;
   agree_on_failures(model.nodes(),
                     [&]
                     {
                       for (ContactInterface &contact : model.contacts())
-                        contact.set_initial_gap(displacement);
+                        deepest.push_back(contact.set_initial_gap(displacement));
                     });
+  model.nodes().maximum_over_processes(deepest);
+  for (std::size_t c = 0; c < deepest.size(); ++c)
+    model.contacts()[c].keep_in_sight(deepest[c]);
 }
 
 namespace
