@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Holds the program against references and writes docs/verification.md (about 10 minutes on two quiet cores).
+# Holds the program against references and writes docs/verification.md (about 15 minutes on two cores).
 #   scripts/verify.sh [CASE ...] [--fine: the finest meshes too, much longer | --coarse: those of the tests, writes no page]
 #   AMONTONS=path/to/amontons uses that program instead of building one.
 set -euo pipefail
