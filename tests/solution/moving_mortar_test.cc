@@ -122,7 +122,7 @@ TEST(MovingMortar, SlidesAsTheWholeTurns)
   EXPECT_LT((turn * vector(a.tangential_force) - vector(b.tangential_force)).norm(), 1e-9 * size);
   for (const Record *run : {&still, &turned})
     for (const int iterations : run->iterations())
-      EXPECT_LE(iterations, 12);
+      EXPECT_LE(iterations, 9);
   // Forces on both sides and supports are in equilibrium.
   EXPECT_LT((turned.reaction("lower_bottom") + turned.reaction("upper_top")).norm(), 1e-8 * size);
 }

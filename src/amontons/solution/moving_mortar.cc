@@ -199,12 +199,15 @@ MovingMortar::Mean MovingMortar::mean(Index i) const
 double MovingMortar::gap(Index i) const
 {
   const Index j = own_[i];
+  const int dim = impactor_->dim;
+  const auto targets = coupling_.targets_of(j);
+  const auto weights = coupling_.weights_of(j);
   double out = 0;
-  for (int c = 0; c < impactor_->dim; ++c)
+  for (int c = 0; c < dim; ++c)
   {
-    double relative = impactor_x_[j * impactor_->dim + c];
-    for (const auto &[node, weight] : mean(i))
-      relative -= weight * target_x_[node * target_->dim + c];
+    double relative = impactor_x_[j * dim + c];
+    for (std::size_t k = 0; k < targets.size(); ++k)
+      relative -= weights[k] * target_x_[targets[k] * dim + c];
     out += coupling_.normal[j][c] * relative;
   }
   return out;
